@@ -30,7 +30,7 @@ def arguments(makers: list[str]) -> argparse.Namespace:
         type=int,
         default=sphere_flake.DEFAULT_DEPTH,
         metavar="N",
-        help="generations of the sphere flake: 1 makes 10 spheres, 2 makes 91, 3 (the default) 820, "
+        help="generations of the sphere flake: 1 makes 10 spheres, 2 makes 91, 3 (default) 820, "
         f"and so on up to {DEEPEST_FLAKE}; above {sphere_flake.DEEPEST_NODES} they are written as "
         "instances (EXT_mesh_gpu_instancing)",
     )
