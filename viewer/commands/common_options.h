@@ -1,0 +1,27 @@
+// Options that several commands share, described once.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "loader/load_scene.h"
+#include "viewer/display_transform.h"
+
+namespace lumivec {
+
+// An option with one value: read takes the text of it. names as CLI11 takes them ("-o,--output");
+// the first long name is the one that messages use, if read asks for it.
+CLI::Option* add_value_option(CLI::App& app, const std::string& names,
+                              const std::string& value_name, const std::string& description,
+                              const std::function<void(const std::string&)>& read);
+
+// The scene file and how it is read: SCENE, --scene, --allow-outside-files.
+void add_scene_options(CLI::App& app, std::filesystem::path& file, LoadOptions& options);
+
+// --exposure, --display, --view, --ocio.
+void add_display_options(CLI::App& app, bool& automatic_exposure, double& exposure,
+                         DisplayOptions& options);
+
+}  // namespace lumivec

@@ -1,0 +1,77 @@
+#include "viewer/display_transform.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "viewer/errors.h"
+#include "viewer/ocio_config.h"
+#include "viewer/suggestion.h"
+
+namespace OCIO = OCIO_NAMESPACE;
+
+namespace lumivec {
+namespace {
+
+bool same_but_for_case(const std::string& a, const std::string& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  });
+}
+
+// The known name that is wanted; kind says what it names, "display" or "view of display 'sRGB'".
+std::string find_name(const std::string& option, const std::string& wanted,
+                      const std::vector<std::string>& known, const std::string& kind) {
+  for (const std::string& name : known) {
+    if (same_but_for_case(name, wanted)) return name;
+  }
+  throw UsageError(option + ": '" + wanted + "' is no " + kind + "; " + suggestion(wanted, known));
+}
+
+}  // namespace
+
+struct DisplayTransform::Processor {
+  OCIO::ConstCPUProcessorRcPtr cpu;
+};
+
+DisplayTransform::DisplayTransform(const DisplayOptions& options) {
+  const OCIO::ConstConfigRcPtr config = load_ocio_config(options.config);
+  display_ = options.display.empty()
+                 ? config->getDefaultDisplay()
+                 : find_name("--display", options.display, display_names(config), "display");
+  view_ = options.view.empty() ? config->getDefaultView(display_.c_str())
+                               : find_name("--view", options.view, view_names(config, display_),
+                                           "view of display '" + display_ + "'");
+  processor_ = std::make_unique<Processor>();
+  processor_->cpu = display_processor(config, display_, view_)->getDefaultCPUProcessor();
+}
+
+DisplayTransform::~DisplayTransform() = default;
+DisplayTransform::DisplayTransform(DisplayTransform&&) noexcept = default;
+DisplayTransform& DisplayTransform::operator=(DisplayTransform&&) noexcept = default;
+
+bool DisplayTransform::is_srgb() const {
+  return same_but_for_case(display_.substr(0, 4), "sRGB");
+}
+
+void DisplayTransform::apply(Picture& picture, double exposure) const {
+  const float scale = float(std::exp2(exposure));
+  const auto clean = [scale](float v) {
+    const float exposed = v * scale;
+    return std::isfinite(exposed) ? exposed : 0.0f;
+  };
+  tbb::parallel_for(tbb::blocked_range<int>(0, picture.height), [&](const auto& rows) {
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      Color* row = picture.pixels.data() + std::size_t(y) * std::size_t(picture.width);
+      std::for_each(row, row + picture.width,
+                    [&](Color& c) { c = Color(clean(c.x), clean(c.y), clean(c.z)); });
+      OCIO::PackedImageDesc description(row, picture.width, 1, 3);
+      processor_->cpu->apply(description);
+    }
+  });
+}
+
+}  // namespace lumivec
