@@ -10,16 +10,20 @@
 
 namespace lumivec {
 
-// Means over the samples of each pixel. Arrays are width × height long. A pixel that no sample reached is black.
+// Means over the samples of each pixel. Arrays are width × height long. A pixel that no sample
+// reached is black.
 struct Framebuffer {
   int width = 0;
   int height = 0;
   std::array<std::vector<Color>, term_count> terms;  // radiance, cd·m⁻², indexed by Term
-  std::vector<Color> albedo;           // [0, 1], first hit, mean over samples
-  std::vector<V3f> normal;             // world space, unit length or shorter at edges, mean over samples
-  std::vector<V3f> position;           // world space, scene units, of the pixel's first sample; 0 if it hits nothing
-  std::vector<float> depth;            // scene units along the view axis, of the first sample; +inf if it hits nothing
-  std::vector<std::int32_t> object;    // index into Scene::instances, of the first sample; -1 if it hits nothing
+  std::vector<Color> albedo;                         // [0, 1], first hit, mean over samples
+  std::vector<V3f> normal;  // world space, unit length or shorter at edges, mean over samples
+  std::vector<V3f>
+      position;  // world space, scene units, of the pixel's first sample; 0 if it hits nothing
+  std::vector<float>
+      depth;  // scene units along the view axis, of the first sample; +inf if it hits nothing
+  std::vector<std::int32_t>
+      object;  // index into Scene::instances, of the first sample; -1 if it hits nothing
   std::vector<std::uint32_t> samples;  // that went into the means
 
   std::size_t pixel_count() const { return std::size_t(width) * std::size_t(height); }
@@ -38,9 +42,10 @@ struct RenderStatistics {
   std::uint64_t rays_camera = 0;
   std::uint64_t rays_scatter = 0;
   std::uint64_t rays_shadow = 0;
-  std::uint64_t samples = 0;     // camera paths in all
-  std::uint64_t light_paths = 0; // paths started at lights
-  std::array<std::uint64_t, term_count> dropped{};  // non-finite samples left out, by the term that was not finite
+  std::uint64_t samples = 0;      // camera paths in all
+  std::uint64_t light_paths = 0;  // paths started at lights
+  std::array<std::uint64_t, term_count>
+      dropped{};                 // non-finite samples left out, by the term that was not finite
   double error_estimate = -1.0;  // own estimate of √relMSE, as a fraction; < 0: none was made
   bool stopped_early = false;    // by the caller
 };

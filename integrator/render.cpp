@@ -1,1 +1,328 @@
-// replaced
+#include "integrator/render.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "integrator/denormals.h"
+#include "integrator/path_tracer.h"
+
+namespace lumivec {
+namespace {
+
+// Large enough to keep sixteen lanes full to the end, small enough that sums stay in the cache and
+// two threads end together.
+constexpr int tile_size = 16;
+constexpr std::uint32_t default_samples = 64;
+// Passes grow up to this, so that a stop or a time limit is never far away.
+constexpr std::uint32_t max_pass_samples = 16;
+// The first two halves that are compared to estimate the error.
+constexpr std::uint32_t first_checkpoint = 8;
+constexpr std::uint32_t max_samples = 1u << 22;
+constexpr int max_size = 65536;
+constexpr double progress_interval = 0.1;  // seconds
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void check(const RenderSettings& s) {
+  if (s.width < 1 || s.height < 1 || s.width > max_size || s.height > max_size) {
+    throw RenderError("a picture of " + std::to_string(s.width) + "x" + std::to_string(s.height) +
+                      " pixels cannot be rendered; each side may have 1 to " +
+                      std::to_string(max_size));
+  }
+  if (s.samples < 0 || std::uint32_t(s.samples) > max_samples) {
+    throw RenderError("samples a pixel must be between 0 and " + std::to_string(max_samples));
+  }
+  if (!(s.seconds >= 0.0) || !std::isfinite(s.seconds))
+    throw RenderError("the time limit must be a positive number of seconds");
+  if (!(s.error >= 0.0) || !std::isfinite(s.error))
+    throw RenderError("the target error must be a positive fraction");
+  if (!(s.specular_roughness >= 0.0f && s.specular_roughness <= 1.0f)) {
+    throw RenderError("the specular roughness threshold must be between 0 and 1");
+  }
+  if (s.max_depth < 0)
+    throw RenderError("the maximal depth must not be negative; 0 means no limit");
+}
+
+// Sums over all samples so far, and the tiles that share them out.
+class Film {
+ public:
+  explicit Film(const RenderSettings& settings)
+      : width_(settings.width),
+        height_(settings.height),
+        columns_((settings.width + tile_size - 1) / tile_size),
+        rows_((settings.height + tile_size - 1) / tile_size),
+        pixels_(std::size_t(settings.width) * std::size_t(settings.height)) {}
+
+  int tile_count() const { return columns_ * rows_; }
+
+  Tile tile(int index) const {
+    const int x = index % columns_ * tile_size, y = index / columns_ * tile_size;
+    return {x, y, std::min(tile_size, width_ - x), std::min(tile_size, height_ - y)};
+  }
+
+  void add(const Tile& tile, const std::vector<PixelSums>& sums, bool first_pass) {
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x) {
+        const PixelSums& from = sums[std::size_t(y) * std::size_t(tile.width) + std::size_t(x)];
+        PixelSums& to =
+            pixels_[std::size_t(tile.y + y) * std::size_t(width_) + std::size_t(tile.x + x)];
+        for (std::size_t i = 0; i < term_count; ++i) to.terms[i] += from.terms[i];
+        to.albedo += from.albedo;
+        to.normal += from.normal;
+        to.samples += from.samples;
+        if (!first_pass) continue;
+        to.position = from.position;
+        to.depth = from.depth;
+        to.object = from.object;
+      }
+    }
+  }
+
+  Color beauty(std::size_t i) const {
+    Color sum(0.0f);
+    for (const Color& term : pixels_[i].terms) sum += term;
+    return pixels_[i].samples > 0 ? sum * (1.0f / static_cast<float>(pixels_[i].samples))
+                                  : Color(0.0f);
+  }
+
+  std::size_t size() const { return pixels_.size(); }
+  const PixelSums& pixel(std::size_t i) const { return pixels_[i]; }
+
+  Framebuffer resolve(const V3d& origin) const {
+    Framebuffer result;
+    result.width = width_;
+    result.height = height_;
+    const std::size_t n = pixels_.size();
+    for (std::vector<Color>& term : result.terms) term.resize(n);
+    result.albedo.resize(n);
+    result.normal.resize(n);
+    result.position.resize(n);
+    result.depth.resize(n);
+    result.object.resize(n);
+    result.samples.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const PixelSums& p = pixels_[i];
+      const float scale = p.samples > 0 ? 1.0f / static_cast<float>(p.samples) : 0.0f;
+      for (std::size_t t = 0; t < term_count; ++t) result.terms[t][i] = p.terms[t] * scale;
+      result.albedo[i] = p.albedo * scale;
+      result.normal[i] = p.normal * scale;
+      result.position[i] = p.object >= 0 ? V3f(V3d(p.position) + origin) : V3f(0.0f);
+      result.depth[i] = p.depth;
+      result.object[i] = p.object;
+      result.samples[i] = p.samples;
+    }
+    return result;
+  }
+
+ private:
+  int width_, height_, columns_, rows_;
+  std::vector<PixelSums> pixels_;
+};
+
+// Estimates the error from what the second half of the samples changed. The halves are stratified
+// each, and better together than independent halves would be, so that the estimate errs on the high
+// side.
+class ErrorEstimate {
+ public:
+  // Remembers the picture after `samples` samples.
+  void remember(const Film& film, std::uint32_t samples) {
+    samples_ = samples;
+    half_.resize(film.size());
+    for (std::size_t i = 0; i < film.size(); ++i) half_[i] = film.beauty(i);
+  }
+
+  // √relMSE of the picture, which has twice as many samples now.
+  double compare(const Film& film) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < film.size(); ++i) {
+      const Color mean = film.beauty(i);
+      for (int c = 0; c < 3; ++c) {
+        // mean = (first + second) / 2, so first - mean is half the difference: its square estimates
+        // the variance.
+        const double d = double(half_[i][c]) - mean[c];
+        sum += d * d / (double(mean[c]) * mean[c] + 0.01);
+      }
+    }
+    compared_at_ = 2 * samples_;
+    error_ = std::sqrt(sum / (3.0 * static_cast<double>(film.size())));
+    return error_;
+  }
+
+  std::uint32_t samples() const { return samples_; }
+  double error() const { return error_; }
+  // At another number of samples, by the rate of plain Monte Carlo.
+  double error_at(double samples) const {
+    return error_ < 0.0 || samples <= 0.0 ? error_ : error_ * std::sqrt(compared_at_ / samples);
+  }
+
+ private:
+  std::vector<Color> half_;
+  std::uint32_t samples_ = 0;
+  double compared_at_ = 0.0;
+  double error_ = -1.0;
+};
+
+void add_counts(const RenderStatistics& from, RenderStatistics& to) {
+  to.rays_camera += from.rays_camera;
+  to.rays_scatter += from.rays_scatter;
+  to.rays_shadow += from.rays_shadow;
+  to.samples += from.samples;
+  for (std::size_t i = 0; i < term_count; ++i) to.dropped[i] += from.dropped[i];
+}
+
+// One render from the first pass to the last.
+class StillRender {
+ public:
+  StillRender(const PathTracer& tracer, const RenderSettings& settings,
+              RenderStatistics& statistics, const ProgressCallback& progress)
+      : tracer_(tracer),
+        settings_(settings),
+        statistics_(statistics),
+        progress_(progress),
+        film_(settings) {
+    target_ =
+        settings.samples > 0
+            ? static_cast<std::uint32_t>(settings.samples)
+            : (settings.seconds > 0.0 || settings.error > 0.0 ? max_samples : default_samples);
+  }
+
+  void run() {
+    start_ = Clock::now();
+    std::uint32_t done = 0;
+    while (done < target_ && !stop_) {
+      const std::uint32_t checkpoint = next_checkpoint(done);
+      const std::uint32_t pass =
+          std::min({std::max(done, 1u), max_pass_samples, target_ - done, checkpoint - done});
+      render_pass(done, pass);
+      if (stop_) break;
+      done += pass;
+      if (done == checkpoint) reach_checkpoint(done);
+    }
+    const double mean_samples =
+        static_cast<double>(statistics_.samples) / static_cast<double>(film_.size());
+    statistics_.error_estimate = estimate_.error_at(mean_samples);
+    statistics_.seconds_sample = seconds_since(start_);
+    statistics_.stopped_early = stopped_by_caller_;
+  }
+
+  const Film& film() const { return film_; }
+
+ private:
+  // Powers of two, where halves can be compared.
+  static std::uint32_t next_checkpoint(std::uint32_t done) {
+    std::uint32_t checkpoint = first_checkpoint / 2;
+    while (checkpoint <= done) checkpoint *= 2;
+    return checkpoint;
+  }
+
+  void reach_checkpoint(std::uint32_t done) {
+    if (estimate_.samples() > 0 && done == 2 * estimate_.samples()) {
+      const double error = estimate_.compare(film_);
+      if (settings_.error > 0.0) {
+        const double needed = done * (error / settings_.error) * (error / settings_.error);
+        // Up to the next checkpoint the estimate can be trusted to say how many samples are
+        // missing.
+        if (needed < 2.0 * done)
+          target_ =
+              std::min(target_, std::max(done, static_cast<std::uint32_t>(std::ceil(needed))));
+      }
+    }
+    estimate_.remember(film_, done);
+  }
+
+  void render_pass(std::uint32_t first_sample, std::uint32_t count) {
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, film_.tile_count(), 1),
+        [&](const tbb::blocked_range<int>& range) {
+          const FlushDenormals flush;
+          std::vector<PixelSums> sums;
+          for (int i = range.begin(); i < range.end() && !stop_; ++i) {
+            const Tile tile = film_.tile(i);
+            sums.assign(std::size_t(tile.width) * std::size_t(tile.height), PixelSums());
+            RenderStatistics counts;
+            tracer_.render_tile(tile, first_sample, count, sums, counts);
+            film_.add(tile, sums, first_sample == 0);
+            const std::lock_guard lock(mutex_);
+            add_counts(counts, statistics_);
+            note_progress(first_sample);
+          }
+        },
+        tbb::simple_partitioner());
+  }
+
+  // Called with the mutex held.
+  void note_progress(std::uint32_t first_sample) {
+    const double seconds = seconds_since(start_);
+    if (settings_.seconds > 0.0 && seconds >= settings_.seconds && first_sample > 0) stop_ = true;
+    if (!progress_ || seconds - last_progress_ < progress_interval) return;
+    last_progress_ = seconds;
+    RenderProgress p;
+    p.seconds = seconds;
+    p.samples = static_cast<double>(statistics_.samples) / static_cast<double>(film_.size());
+    p.error = estimate_.error_at(p.samples);
+    p.fraction = p.samples / static_cast<double>(target_);
+    if (settings_.seconds > 0.0) p.fraction = std::max(p.fraction, seconds / settings_.seconds);
+    if (settings_.error > 0.0 && p.error > 0.0) {
+      const double ratio = settings_.error / p.error;
+      p.fraction = std::max(p.fraction, ratio * ratio);
+    }
+    p.fraction = std::min(p.fraction, 1.0);
+    p.seconds_left = p.fraction > 0.0 ? seconds * (1.0 - p.fraction) / p.fraction : 0.0;
+    if (!progress_(p)) {
+      stop_ = true;
+      stopped_by_caller_ = true;
+    }
+  }
+
+  const PathTracer& tracer_;
+  const RenderSettings& settings_;
+  RenderStatistics& statistics_;
+  const ProgressCallback& progress_;
+  Film film_;
+  ErrorEstimate estimate_;
+  std::uint32_t target_ = 0;
+  Clock::time_point start_;
+  double last_progress_ = 0.0;
+  std::atomic<bool> stop_{false};
+  bool stopped_by_caller_ = false;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+Framebuffer render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                   RenderStatistics& statistics, const ProgressCallback& progress) {
+  check(settings);
+  statistics = RenderStatistics();
+  const int threads =
+      settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
+  tbb::task_arena arena(threads);
+  Framebuffer result;
+  arena.execute([&] {
+    const Clock::time_point start = Clock::now();
+    const TracedScene traced(scene, threads);
+    const Lights lights(traced);
+    const CameraView view(camera, traced, settings.width, settings.height);
+    const PathTracer tracer(traced, lights, view, settings);
+    statistics.seconds_prepare = seconds_since(start);
+    StillRender still(tracer, settings, statistics, progress);
+    still.run();
+    result = still.film().resolve(traced.origin());
+  });
+  return result;
+}
+
+}  // namespace lumivec

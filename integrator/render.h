@@ -10,7 +10,8 @@
 
 namespace lumivec {
 
-// Settings that contradict themselves or a scene that does not fit the machine; what() is one line for the user.
+// Settings that contradict themselves or a scene that does not fit the machine; what() is one line
+// for the user.
 class RenderError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -24,12 +25,12 @@ struct RenderProgress {
   double error = -1.0;        // own estimate of √relMSE, as a fraction; < 0: none yet
 };
 
-// Called a few times a second from one of the rendering threads, never from two at once. False ends the render,
-// which then returns what it has.
+// Called a few times a second from one of the rendering threads, never from two at once. False ends
+// the render, which then returns what it has.
 using ProgressCallback = std::function<bool(const RenderProgress&)>;
 
-// Renders scene as seen by camera. Same scene, camera, settings and seed: same framebuffer, bit for bit, whatever the
-// number of threads, unless the limit is time. Throws RenderError.
+// Renders scene as seen by camera. Same scene, camera, settings and seed: same framebuffer, bit for
+// bit, whatever the number of threads, unless the limit is time. Throws RenderError.
 Framebuffer render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                    RenderStatistics& statistics, const ProgressCallback& progress = {});
 

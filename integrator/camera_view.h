@@ -1,0 +1,41 @@
+// A camera made ready to shoot rays through pixels, in traced space.
+#pragma once
+
+#include "integrator/settings.h"
+#include "integrator/traced_scene.h"
+#include "loader/scene.h"
+
+namespace lumivec {
+
+struct CameraRay {
+  V3f origin;                     // traced space
+  V3f direction;                  // unit
+  float near = 0.0f, far = 0.0f;  // distances along the ray between which the eye sees
+};
+
+class CameraView {
+ public:
+  // The vertical field of view is the camera's, the horizontal one follows from the picture's
+  // shape.
+  CameraView(const Camera& camera, const TracedScene& scene, int width, int height);
+
+  // Through the point (x, y) of the picture, pixels from its upper left corner.
+  CameraRay ray(float x, float y) const;
+
+  // Distance of a traced-space point along the view axis.
+  float depth(const V3f& p) const { return (p - position_).dot(forward_); }
+
+  // Where the eye sees p. False: behind the eye or outside the picture. importance: what a path
+  // from the light that is connected to the eye is weighted by, pixel⁻¹ (W_e · |cosθ| / distance²,
+  // over a picture of pixels of area one).
+  bool project(const V3f& p, V2f& pixel, V3f& to_eye, float& distance, float& importance) const;
+
+ private:
+  CameraKind kind_;
+  V3f position_, right_, up_, forward_;
+  float half_width_ = 0.0f, half_height_ = 0.0f;  // at unit distance; orthographic: scene units
+  float near_ = 0.0f, far_ = 0.0f;
+  float width_ = 0.0f, height_ = 0.0f;  // pixels
+};
+
+}  // namespace lumivec

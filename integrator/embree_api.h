@@ -1,0 +1,82 @@
+// All that differs between Embree 3.13 and 4, and the handles' ownership. No other file calls a
+// version-specific name.
+#pragma once
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <memory>
+
+namespace lumivec::embree {
+
+#if RTC_VERSION_MAJOR >= 4
+using QueryContext = RTCRayQueryContext;
+inline void init(QueryContext& context) {
+  rtcInitRayQueryContext(&context);
+}
+
+namespace detail {
+inline RTCIntersectArguments intersect_arguments(QueryContext& context) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  return arguments;
+}
+inline RTCOccludedArguments occluded_arguments(QueryContext& context) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  return arguments;
+}
+}  // namespace detail
+
+inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
+  RTCIntersectArguments arguments = detail::intersect_arguments(context);
+  rtcIntersect1(scene, &ray, &arguments);
+}
+inline void intersect16(const int* valid, RTCScene scene, QueryContext& context,
+                        RTCRayHit16& rays) {
+  RTCIntersectArguments arguments = detail::intersect_arguments(context);
+  rtcIntersect16(valid, scene, &rays, &arguments);
+}
+inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {
+  RTCOccludedArguments arguments = detail::occluded_arguments(context);
+  rtcOccluded1(scene, &ray, &arguments);
+}
+inline void occluded16(const int* valid, RTCScene scene, QueryContext& context, RTCRay16& rays) {
+  RTCOccludedArguments arguments = detail::occluded_arguments(context);
+  rtcOccluded16(valid, scene, &rays, &arguments);
+}
+#else
+using QueryContext = RTCIntersectContext;
+inline void init(QueryContext& context) {
+  rtcInitIntersectContext(&context);
+}
+inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
+  rtcIntersect1(scene, &context, &ray);
+}
+inline void intersect16(const int* valid, RTCScene scene, QueryContext& context,
+                        RTCRayHit16& rays) {
+  rtcIntersect16(valid, scene, &context, &rays);
+}
+inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {
+  rtcOccluded1(scene, &context, &ray);
+}
+inline void occluded16(const int* valid, RTCScene scene, QueryContext& context, RTCRay16& rays) {
+  rtcOccluded16(valid, scene, &context, &rays);
+}
+#endif
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
+using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+
+}  // namespace lumivec::embree

@@ -1,0 +1,96 @@
+// All light sources of a scene: emissive triangles, rectangles, spheres, punctual and infinite
+// lights, sampled by their estimated contribution at the receiving point.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "integrator/environment_light.h"
+#include "integrator/light_tree.h"
+#include "integrator/traced_scene.h"
+
+namespace lumivec {
+
+enum class EmitterKind : std::uint8_t { triangle, rectangle, sphere, ellipsoid, point, spot };
+
+// A light of finite position, traced space.
+struct Emitter {
+  EmitterKind kind = EmitterKind::triangle;
+  bool two_sided = false;
+  bool varying = false;                      // radiance or opacity depends on the point
+  int instance = -1;                         // Scene::instances; -1 for punctual lights
+  unsigned primitive = 0;                    // triangle: of the mesh
+  V3f origin{0.0f};                          // first corner; centre; position
+  V3f edge_u{0.0f}, edge_v{0.0f};            // triangle, rectangle; spot: edge_u is the axis
+  float radius = 0.0f;                       // sphere
+  float cos_inner = 1.0f, cos_outer = 0.0f;  // spot
+  float error = 0.0f;                        // how far shadow rays must end before its surface
+  Color emission{0.0f};                      // mean radiance, cd·m⁻²; punctual: intensity, cd
+};
+
+// One way in which light may reach the receiving point, unoccluded.
+struct LightSample {
+  V3f direction;  // unit, from the receiving point
+  V3f target;     // end of the shadow ray, traced space; infinite lights: a direction to far away
+  float distance = 0.0f;  // scene units; inf for infinite lights
+  Color radiance;  // cd·m⁻² from that direction; delta lights: illuminance, lx, on a facing surface
+  float pdf = 0.0f;    // sr⁻¹, including the choice of the light; delta lights: the choice alone
+  bool delta = false;  // no scattered ray can find this light
+};
+
+class Lights {
+ public:
+  // The traced scene must outlive this.
+  explicit Lights(const TracedScene& scene);
+
+  bool empty() const { return emitters_.empty() && directional_.empty() && environment_.black(); }
+  // Punctual and directional lights: scattered rays cannot find them.
+  bool has_delta() const { return has_delta_; }
+
+  // Draws a light and a point on it. p in traced space; normal: of the receiving surface if light
+  // from its other side cannot matter, else (0, 0, 0). False: nothing to sample there.
+  bool sample(const V3f& p, const V3f& normal, float u_light, const V2f& u,
+              LightSample& sample) const;
+
+  // Density with which sample() at p finds the emissive surface point hit, sr⁻¹; 0 if it never
+  // does.
+  float pdf(const V3f& p, const V3f& normal, const SurfacePoint& hit) const;
+  float pdf_environment(const V3f& p, const V3f& normal, const V3f& direction) const;
+
+  const EnvironmentLight& environment() const { return environment_; }
+  const std::vector<Emitter>& emitters() const { return emitters_; }
+
+ private:
+  struct Directional {
+    V3f direction;  // unit, toward the light
+    Color illuminance;
+  };
+  // Probabilities of drawing from the tree, the environment, and each directional light.
+  struct Shares {
+    float tree = 0.0f, environment = 0.0f, directional_scale = 0.0f;
+  };
+
+  void add_instance(int instance);
+  void add_mesh(int instance, const Material& material);
+  void add_sphere(int instance, const Material& material);
+  void add_light(const Light& light);
+  void add(const Emitter& emitter, const LightBounds& bounds);
+  Shares shares(const V3f& p, const V3f& normal) const;
+  float directional_weight(const Directional& light, const V3f& normal) const;
+  bool sample_emitter(const Emitter& emitter, const V3f& p, const V2f& u,
+                      LightSample& sample) const;
+  float emitter_pdf(const Emitter& emitter, const V3f& p, const SurfacePoint& hit) const;
+
+  const TracedScene& scene_;
+  EnvironmentLight environment_;
+  std::vector<Emitter> emitters_;
+  std::vector<LightBounds> bounds_;  // emptied after the tree is built
+  std::vector<Directional> directional_;
+  LightTree tree_;
+  std::vector<std::int64_t>
+      first_triangle_;  // by instance: offset into triangle_emitter_; sphere: emitter; -1: none
+  std::vector<int> triangle_emitter_;  // emitter of each triangle of emissive meshes; -1: none
+  bool has_delta_ = false;
+};
+
+}  // namespace lumivec

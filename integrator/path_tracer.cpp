@@ -1,0 +1,431 @@
+#include "integrator/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrator/media.h"
+#include "integrator/partition.h"
+#include "integrator/sobol.h"
+
+namespace lumivec {
+namespace {
+
+constexpr int lane_count = 16;
+
+// Two events of scattering are always traced; then a path survives with the largest channel of its
+// throughput.
+constexpr int first_roulette_depth = 2;
+// Survivors of the roulette are at most this much brighter, which bounds the noise that it adds.
+constexpr float min_survival = 0.05f;
+
+float max_component(const Color& c) {
+  return std::max({c.x, c.y, c.z});
+}
+
+bool is_black(const Color& c) {
+  return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f;
+}
+
+bool is_finite(const Color& c) {
+  return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+}
+
+// Veach's power heuristic with exponent two, safe for any finite densities.
+float power_heuristic(float taken, float other) {
+  if (other <= 0.0f) return 1.0f;
+  const float ratio = other / taken;
+  return 1.0f / (1.0f + ratio * ratio);
+}
+
+struct Lane {
+  bool active = false;
+  bool camera_ray = false;
+  bool ended = false;       // nothing more to trace but perhaps a shadow ray
+  std::uint32_t pixel = 0;  // of the tile
+  std::uint32_t sample = 0;
+  std::uint32_t seed = 0;  // of the pixel
+  int depth = 0;           // scattering events so far
+
+  V3f origin, direction;
+  float near = 0.0f, far = std::numeric_limits<float>::infinity();
+  Color throughput;
+  float radiance_scale =
+      1.0f;  // product of squared ratios of indices: what throughput owes to refraction alone
+  Term term = Term::emitted;
+  MediumStack media;
+
+  // How light sampling at the last vertex could have found what this ray finds.
+  bool light_sampled = false;
+  V3f vertex, vertex_normal;
+  float scatter_pdf = 0.0f;
+
+  bool shadow = false;
+  V3f shadow_origin, shadow_target;
+  Color shadow_light[2];  // by LobeKind, if nothing is in between
+  Term shadow_term[2];
+
+  std::array<Color, term_count> radiance;
+  Color albedo;
+  V3f normal, position;
+  float hit_depth = 0.0f;
+  std::int32_t object = -1;
+
+  void add(Term to, const Color& light) { radiance[static_cast<std::size_t>(to)] += light; }
+
+  std::array<float, 4> random(std::uint32_t block) const {
+    return sobol_point(sample, hash_combine(seed, block));
+  }
+};
+
+}  // namespace
+
+// The sixteen lanes of one tile.
+class PathStream {
+ public:
+  PathStream(const PathTracer& tracer, const Tile& tile, std::uint32_t first_sample,
+             std::uint32_t sample_count, std::vector<PixelSums>& sums, RenderStatistics& statistics)
+      : t_(tracer),
+        tile_(tile),
+        first_sample_(first_sample),
+        pixel_count_(static_cast<std::uint32_t>(tile.width) *
+                     static_cast<std::uint32_t>(tile.height)),
+        path_count_(std::uint64_t(pixel_count_) * sample_count),
+        sums_(sums),
+        statistics_(statistics) {}
+
+  void run() {
+    while (fill()) {
+      trace();
+      for (int i = 0; i < lane_count; ++i) {
+        if (lanes_[i].active) shade(i);
+      }
+      trace_shadows();
+      for (Lane& lane : lanes_) {
+        if (lane.active && lane.ended) deposit(lane);
+      }
+    }
+  }
+
+ private:
+  // Starts paths in idle lanes; false when none are left and none run.
+  bool fill() {
+    bool any = false;
+    for (Lane& lane : lanes_) {
+      if (!lane.active && next_path_ < path_count_) start(lane, next_path_++);
+      any = any || lane.active;
+    }
+    return any;
+  }
+
+  void start(Lane& lane, std::uint64_t path) {
+    lane = Lane();
+    lane.active = true;
+    lane.camera_ray = true;
+    lane.pixel = static_cast<std::uint32_t>(path % pixel_count_);
+    lane.sample = first_sample_ + static_cast<std::uint32_t>(path / pixel_count_);
+    const int x = tile_.x + static_cast<int>(lane.pixel) % tile_.width;
+    const int y = tile_.y + static_cast<int>(lane.pixel) / tile_.width;
+    const auto seed_low = static_cast<std::uint32_t>(t_.settings_.seed);
+    const auto seed_high = static_cast<std::uint32_t>(t_.settings_.seed >> 32);
+    lane.seed =
+        hash_combine(hash_combine(hash_combine(seed_low, seed_high), static_cast<std::uint32_t>(x)),
+                     static_cast<std::uint32_t>(y));
+    const std::array<float, 4> u = lane.random(0);
+    const V2f offset = t_.filter_.offset(V2f(u[0], u[1]));
+    const CameraRay ray = t_.camera_.ray(static_cast<float>(x) + 0.5f + offset.x,
+                                         static_cast<float>(y) + 0.5f + offset.y);
+    lane.origin = ray.origin;
+    lane.direction = ray.direction;
+    lane.near = ray.near;
+    lane.far = ray.far;
+    lane.throughput = Color(1.0f);
+    lane.radiance.fill(Color(0.0f));
+    lane.albedo = Color(0.0f);
+    lane.normal = lane.position = V3f(0.0f);
+    lane.hit_depth = std::numeric_limits<float>::infinity();
+    ++statistics_.samples;
+  }
+
+  void trace() {
+    alignas(64) int valid[lane_count];
+    for (int i = 0; i < lane_count; ++i) {
+      const Lane& lane = lanes_[i];
+      valid[i] = lane.active ? -1 : 0;
+      RTCRay16& ray = rays_.ray;
+      ray.org_x[i] = lane.origin.x;
+      ray.org_y[i] = lane.origin.y;
+      ray.org_z[i] = lane.origin.z;
+      ray.dir_x[i] = lane.direction.x;
+      ray.dir_y[i] = lane.direction.y;
+      ray.dir_z[i] = lane.direction.z;
+      ray.tnear[i] = lane.near;
+      ray.tfar[i] = lane.far;
+      ray.time[i] = 0.0f;
+      ray.mask[i] = ~0u;
+      ray.id[i] = static_cast<unsigned>(i);
+      ray.flags[i] = 0;
+      rays_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      rays_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+      if (lane.active) ++(lane.camera_ray ? statistics_.rays_camera : statistics_.rays_scatter);
+    }
+    TraceQuery query = t_.scene_.query();
+    if (t_.scene_.has_filters()) seed_lanes();
+    query.seeds = seeds_;
+    embree::intersect16(valid, t_.scene_.handle(), query.context, rays_);
+  }
+
+  void trace_shadows() {
+    alignas(64) int valid[lane_count];
+    bool any = false;
+    for (int i = 0; i < lane_count; ++i) {
+      const Lane& lane = lanes_[i];
+      const bool shadow = lane.active && lane.shadow;
+      valid[i] = shadow ? -1 : 0;
+      if (!shadow) continue;
+      any = true;
+      const V3f d = lane.shadow_target - lane.shadow_origin;
+      shadow_rays_.org_x[i] = lane.shadow_origin.x;
+      shadow_rays_.org_y[i] = lane.shadow_origin.y;
+      shadow_rays_.org_z[i] = lane.shadow_origin.z;
+      shadow_rays_.dir_x[i] = d.x;
+      shadow_rays_.dir_y[i] = d.y;
+      shadow_rays_.dir_z[i] = d.z;
+      shadow_rays_.tnear[i] = 0.0f;
+      shadow_rays_.tfar[i] = 1.0f;
+      shadow_rays_.time[i] = 0.0f;
+      shadow_rays_.mask[i] = ~0u;
+      shadow_rays_.id[i] = static_cast<unsigned>(i);
+      shadow_rays_.flags[i] = 0;
+      transmittance_[i] = Color(1.0f);
+      passed_thin_[i] = 0;
+      ++statistics_.rays_shadow;
+    }
+    if (!any) return;
+    TraceQuery query = t_.scene_.query();
+    if (t_.scene_.has_filters()) seed_lanes();
+    query.seeds = seeds_;
+    query.transmittance = transmittance_;
+    query.passed_thin = passed_thin_;
+    embree::occluded16(valid, t_.scene_.handle(), query.context, shadow_rays_);
+    for (int i = 0; i < lane_count; ++i) {
+      if (valid[i] == 0) continue;
+      Lane& lane = lanes_[i];
+      lane.shadow = false;
+      if (shadow_rays_.tfar[i] < 0.0f) continue;
+      for (int kind = 0; kind < 2; ++kind) {
+        const Term term = passed_thin_[i] ? after_event(lane.shadow_term[kind], LobeKind::specular)
+                                          : lane.shadow_term[kind];
+        lane.add(term, lane.shadow_light[kind] * transmittance_[i]);
+      }
+    }
+  }
+
+  // A new seed for every ray, so that passing a partly opaque surface once says nothing of the next
+  // time.
+  void seed_lanes() {
+    ++rounds_;
+    for (int i = 0; i < lane_count; ++i) {
+      seeds_[i] = hash_combine(hash_combine(lanes_[i].seed, lanes_[i].sample), rounds_);
+    }
+  }
+
+  void shade(int i) {
+    Lane& lane = lanes_[i];
+    const RTCHit16& h = rays_.hit;
+    const RayHit hit = {rays_.ray.tfar[i], h.u[i],      h.v[i],
+                        h.geomID[i],       h.primID[i], h.instID[0][i]};
+    if (!hit.valid()) {
+      add_environment(lane);
+      lane.ended = true;
+      return;
+    }
+    const SurfacePoint point = t_.scene_.surface(hit, lane.origin, lane.direction);
+    const Material& material = *point.material;
+    absorb(lane, point, hit.distance);
+
+    const Color emission = t_.scene_.emission(point);
+    if (!is_black(emission)) add_emission(lane, point, emission);
+
+    if (material.unlit) {
+      if (lane.camera_ray) note_first_hit(lane, point, emission, point.normal);
+      lane.ended = true;
+      return;
+    }
+    const float outside_ior = lane.media.outside_ior(material, point.front);
+    const SurfaceParameters parameters = t_.scene_.parameters(point, outside_ior);
+    if (lane.camera_ray) note_first_hit(lane, point, parameters.base_color, parameters.normal);
+    lane.camera_ray = false;
+    if (t_.settings_.max_depth > 0 && lane.depth >= t_.settings_.max_depth) {
+      lane.ended = true;
+      return;
+    }
+    const Bsdf bsdf(parameters, point.geometric_normal, -lane.direction, t_.scene_.albedo_tables(),
+                    t_.settings_.specular_roughness);
+    const bool passes = parameters.transmission > 0.0f;
+    const V3f receiver = passes ? V3f(0.0f) : point.geometric_normal;
+    const bool may_sample_lights = bsdf.has_non_delta() && !t_.lights_.empty();
+    if (may_sample_lights) sample_light(lane, point, bsdf, receiver);
+    scatter(lane, point, parameters, bsdf, receiver, may_sample_lights);
+  }
+
+  void add_environment(Lane& lane) {
+    const EnvironmentLight& environment = t_.lights_.environment();
+    if (environment.black()) return;
+    float weight = 1.0f;
+    if (lane.light_sampled) {
+      weight = power_heuristic(
+          lane.scatter_pdf,
+          t_.lights_.pdf_environment(lane.vertex, lane.vertex_normal, lane.direction));
+    }
+    lane.add(lane.term, lane.throughput * environment.radiance(lane.direction) * weight);
+  }
+
+  void add_emission(Lane& lane, const SurfacePoint& point, const Color& emission) {
+    float weight = 1.0f;
+    if (lane.light_sampled) {
+      weight =
+          power_heuristic(lane.scatter_pdf, t_.lights_.pdf(lane.vertex, lane.vertex_normal, point));
+    }
+    lane.add(lane.term, lane.throughput * emission * weight);
+  }
+
+  // Absorption along the ray, in the volume that it runs through.
+  void absorb(Lane& lane, const SurfacePoint& point, float distance) {
+    const Material* medium = lane.media.top();
+    const Material& m = *point.material;
+    // A path that started inside a volume finds out when it comes to its boundary.
+    if (!medium && !point.front && m.transmission > 0.0f && !m.thin_walled) medium = &m;
+    if (medium) lane.throughput *= volume_transmittance(*medium, distance);
+  }
+
+  void note_first_hit(Lane& lane, const SurfacePoint& point, const Color& albedo,
+                      const V3f& normal) {
+    lane.albedo = albedo;
+    lane.normal = normal;
+    lane.position = point.position;
+    lane.hit_depth = t_.camera_.depth(point.position);
+    lane.object = point.instance;
+  }
+
+  void sample_light(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf, const V3f& receiver) {
+    const std::array<float, 4> u = lane.random(1 + 2 * static_cast<std::uint32_t>(lane.depth));
+    LightSample light;
+    if (!t_.lights_.sample(point.position, receiver, u[0], V2f(u[1], u[2]), light)) return;
+    const BsdfValue f = bsdf.eval(light.direction);
+    const float weight_d = light.delta ? 1.0f : power_heuristic(light.pdf, f.pdf_non_specular);
+    const float weight_s = light.delta ? 1.0f : power_heuristic(light.pdf, f.pdf_specular);
+    Color arriving = lane.throughput * light.radiance * (1.0f / light.pdf);
+    if (const Material* medium = lane.media.top())
+      arriving *= volume_transmittance(*medium, light.distance);
+    lane.shadow_light[0] = arriving * f.non_specular * weight_d;
+    lane.shadow_light[1] = arriving * f.specular * weight_s;
+    lane.shadow_term[0] = after_event(lane.term, LobeKind::non_specular);
+    lane.shadow_term[1] = after_event(lane.term, LobeKind::specular);
+    const std::uint32_t found =
+        (is_black(lane.shadow_light[0]) ? 0u : reachable_terms(lane.shadow_term[0])) |
+        (is_black(lane.shadow_light[1]) ? 0u : reachable_terms(lane.shadow_term[1]));
+    lane.shadow = (found & t_.settings_.terms) != 0;
+    lane.shadow_origin = offset_origin(point, light.direction);
+    lane.shadow_target = light.target;
+  }
+
+  void scatter(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
+               const Bsdf& bsdf, const V3f& receiver, bool lights_sampled) {
+    lane.ended = true;
+    const std::array<float, 4> u = lane.random(2 + 2 * static_cast<std::uint32_t>(lane.depth));
+    BsdfSample s;
+    if (!bsdf.sample(u[0], V2f(u[1], u[2]), s)) return;
+    lane.throughput *= s.weight;
+    if (is_black(lane.throughput)) return;
+    const bool straight_through = s.delta && s.transmitted && parameters.thin_walled;
+    const Term next = after_event(lane.term, s.kind);
+    if ((reachable_terms(next) & t_.settings_.terms) == 0) return;
+    lane.term = next;
+    ++lane.depth;
+    if (straight_through && lane.light_sampled) {
+      // Shadow rays pass thin walls too: light sampling at the last vertex competes with this path
+      // still.
+      lane.scatter_pdf *= s.pdf;
+    } else {
+      lane.light_sampled = !s.delta && lights_sampled;
+      lane.scatter_pdf = s.pdf;
+      lane.vertex = point.position;
+      lane.vertex_normal = receiver;
+    }
+    if (s.transmitted && !parameters.thin_walled) {
+      lane.media.cross(*point.material, point.front);
+      lane.radiance_scale *= parameters.eta * parameters.eta;
+    }
+    if (lane.depth >= first_roulette_depth) {
+      const float survival =
+          std::clamp(max_component(lane.throughput) * lane.radiance_scale, min_survival, 1.0f);
+      if (survival < 1.0f) {
+        if (u[3] >= survival) return;
+        lane.throughput *= 1.0f / survival;
+      }
+    }
+    lane.origin = offset_origin(point, s.wi);
+    lane.direction = s.wi;
+    lane.near = 0.0f;
+    lane.far = std::numeric_limits<float>::infinity();
+    lane.ended = false;
+  }
+
+  void deposit(Lane& lane) {
+    lane.active = false;
+    PixelSums& sums = sums_[lane.pixel];
+    bool finite = true;
+    for (std::size_t i = 0; i < term_count; ++i) {
+      if (is_finite(lane.radiance[i])) continue;
+      finite = false;
+      ++statistics_.dropped[i];
+    }
+    if (lane.sample == 0) {
+      sums.position = lane.position;
+      sums.depth = lane.hit_depth;
+      sums.object = lane.object;
+    }
+    if (!finite) return;
+    for (std::size_t i = 0; i < term_count; ++i) {
+      if (t_.settings_.terms & (1u << i)) sums.terms[i] += lane.radiance[i];
+    }
+    sums.albedo += lane.albedo;
+    sums.normal += lane.normal;
+    ++sums.samples;
+  }
+
+  const PathTracer& t_;
+  const Tile tile_;
+  const std::uint32_t first_sample_;
+  const std::uint32_t pixel_count_;
+  const std::uint64_t path_count_;
+  std::uint64_t next_path_ = 0;
+  std::uint32_t rounds_ = 0;
+  std::vector<PixelSums>& sums_;
+  RenderStatistics& statistics_;
+
+  RTCRayHit16 rays_;
+  RTCRay16 shadow_rays_;
+  std::uint32_t seeds_[lane_count] = {};
+  Color transmittance_[lane_count];
+  std::uint8_t passed_thin_[lane_count] = {};
+  Lane lanes_[lane_count];
+};
+
+PathTracer::PathTracer(const TracedScene& scene, const Lights& lights, const CameraView& camera,
+                       const RenderSettings& settings)
+    : scene_(scene),
+      lights_(lights),
+      camera_(camera),
+      settings_(settings),
+      filter_(settings.filter) {}
+
+void PathTracer::render_tile(const Tile& tile, std::uint32_t first_sample,
+                             std::uint32_t sample_count, std::vector<PixelSums>& sums,
+                             RenderStatistics& statistics) const {
+  PathStream stream(*this, tile, first_sample, sample_count, sums, statistics);
+  stream.run();
+}
+
+}  // namespace lumivec
