@@ -37,18 +37,18 @@ inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
   RTCIntersectArguments arguments = detail::intersect_arguments(context);
   rtcIntersect1(scene, &ray, &arguments);
 }
-inline void intersect16(const int* valid, RTCScene scene, QueryContext& context,
-                        RTCRayHit16& rays) {
+inline void intersect8(const int* valid, RTCScene scene, QueryContext& context,
+                        RTCRayHit8& rays) {
   RTCIntersectArguments arguments = detail::intersect_arguments(context);
-  rtcIntersect16(valid, scene, &rays, &arguments);
+  rtcIntersect8(valid, scene, &rays, &arguments);
 }
 inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {
   RTCOccludedArguments arguments = detail::occluded_arguments(context);
   rtcOccluded1(scene, &ray, &arguments);
 }
-inline void occluded16(const int* valid, RTCScene scene, QueryContext& context, RTCRay16& rays) {
+inline void occluded8(const int* valid, RTCScene scene, QueryContext& context, RTCRay8& rays) {
   RTCOccludedArguments arguments = detail::occluded_arguments(context);
-  rtcOccluded16(valid, scene, &rays, &arguments);
+  rtcOccluded8(valid, scene, &rays, &arguments);
 }
 #else
 using QueryContext = RTCIntersectContext;
@@ -58,15 +58,15 @@ inline void init(QueryContext& context) {
 inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
   rtcIntersect1(scene, &context, &ray);
 }
-inline void intersect16(const int* valid, RTCScene scene, QueryContext& context,
-                        RTCRayHit16& rays) {
-  rtcIntersect16(valid, scene, &context, &rays);
+inline void intersect8(const int* valid, RTCScene scene, QueryContext& context,
+                        RTCRayHit8& rays) {
+  rtcIntersect8(valid, scene, &context, &rays);
 }
 inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {
   rtcOccluded1(scene, &context, &ray);
 }
-inline void occluded16(const int* valid, RTCScene scene, QueryContext& context, RTCRay16& rays) {
-  rtcOccluded16(valid, scene, &context, &rays);
+inline void occluded8(const int* valid, RTCScene scene, QueryContext& context, RTCRay8& rays) {
+  rtcOccluded8(valid, scene, &context, &rays);
 }
 #endif
 

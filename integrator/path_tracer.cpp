@@ -11,7 +11,7 @@
 namespace lumivec {
 namespace {
 
-constexpr int lane_count = 16;
+constexpr int lane_count = 8;
 
 // Two events of scattering are always traced; then a path survives with the largest channel of its
 // throughput.
@@ -80,7 +80,7 @@ struct Lane {
 
 }  // namespace
 
-// The sixteen lanes of one tile.
+// The eight lanes of one tile.
 class PathStream {
  public:
   PathStream(const PathTracer& tracer, const Tile& tile, std::uint32_t first_sample,
@@ -147,12 +147,29 @@ class PathStream {
     ++statistics_.samples;
   }
 
+  // Some of Embree's packet kernels look at lanes that are not valid: they must hold an empty ray.
+  static void disable(RTCRay8& rays, int i) {
+    rays.org_x[i] = rays.org_y[i] = rays.org_z[i] = 0.0f;
+    rays.dir_x[i] = rays.dir_y[i] = 0.0f;
+    rays.dir_z[i] = 1.0f;
+    rays.tnear[i] = 0.0f;
+    rays.tfar[i] = -1.0f;
+    rays.time[i] = 0.0f;
+    rays.mask[i] = 0u;
+    rays.id[i] = 0;
+    rays.flags[i] = 0;
+  }
+
   void trace() {
     alignas(64) int valid[lane_count];
     for (int i = 0; i < lane_count; ++i) {
       const Lane& lane = lanes_[i];
       valid[i] = lane.active ? -1 : 0;
-      RTCRay16& ray = rays_.ray;
+      RTCRay8& ray = rays_.ray;
+      if (!lane.active) {
+        disable(ray, i);
+        continue;
+      }
       ray.org_x[i] = lane.origin.x;
       ray.org_y[i] = lane.origin.y;
       ray.org_z[i] = lane.origin.z;
@@ -167,12 +184,12 @@ class PathStream {
       ray.flags[i] = 0;
       rays_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rays_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-      if (lane.active) ++(lane.camera_ray ? statistics_.rays_camera : statistics_.rays_scatter);
+      ++(lane.camera_ray ? statistics_.rays_camera : statistics_.rays_scatter);
     }
     TraceQuery query = t_.scene_.query();
     if (t_.scene_.has_filters()) seed_lanes();
     query.seeds = seeds_;
-    embree::intersect16(valid, t_.scene_.handle(), query.context, rays_);
+    embree::intersect8(valid, t_.scene_.handle(), query.context, rays_);
   }
 
   void trace_shadows() {
@@ -182,7 +199,10 @@ class PathStream {
       const Lane& lane = lanes_[i];
       const bool shadow = lane.active && lane.shadow;
       valid[i] = shadow ? -1 : 0;
-      if (!shadow) continue;
+      if (!shadow) {
+        disable(shadow_rays_, i);
+        continue;
+      }
       any = true;
       const V3f d = lane.shadow_target - lane.shadow_origin;
       shadow_rays_.org_x[i] = lane.shadow_origin.x;
@@ -207,7 +227,7 @@ class PathStream {
     query.seeds = seeds_;
     query.transmittance = transmittance_;
     query.passed_thin = passed_thin_;
-    embree::occluded16(valid, t_.scene_.handle(), query.context, shadow_rays_);
+    embree::occluded8(valid, t_.scene_.handle(), query.context, shadow_rays_);
     for (int i = 0; i < lane_count; ++i) {
       if (valid[i] == 0) continue;
       Lane& lane = lanes_[i];
@@ -232,7 +252,7 @@ class PathStream {
 
   void shade(int i) {
     Lane& lane = lanes_[i];
-    const RTCHit16& h = rays_.hit;
+    const RTCHit8& h = rays_.hit;
     const RayHit hit = {rays_.ray.tfar[i], h.u[i],      h.v[i],
                         h.geomID[i],       h.primID[i], h.instID[0][i]};
     if (!hit.valid()) {
@@ -405,8 +425,8 @@ class PathStream {
   std::vector<PixelSums>& sums_;
   RenderStatistics& statistics_;
 
-  RTCRayHit16 rays_;
-  RTCRay16 shadow_rays_;
+  RTCRayHit8 rays_;
+  RTCRay8 shadow_rays_;
   std::uint32_t seeds_[lane_count] = {};
   Color transmittance_[lane_count];
   std::uint8_t passed_thin_[lane_count] = {};

@@ -2,7 +2,7 @@
 // importance sampling, every contribution filed under the term that the path's events give it
 // (partition.h).
 //
-// Paths run in sixteen lanes: each round traces one Embree packet of scattered rays and one of
+// Paths run in eight lanes (the packet width that AVX2 and AVX-512 machines both trace natively): each round traces one Embree packet of scattered rays and one of
 // shadow rays, and shades the hits one by one; a lane whose path ends takes up the next one, so
 // that packets stay full. Source: Veach 1997 (multiple importance sampling, Russian roulette).
 #pragma once

@@ -19,7 +19,7 @@
 namespace lumivec {
 namespace {
 
-// Large enough to keep sixteen lanes full to the end, small enough that sums stay in the cache and
+// Large enough to keep eight lanes full to the end, small enough that sums stay in the cache and
 // two threads end together.
 constexpr int tile_size = 16;
 constexpr std::uint32_t default_samples = 64;
