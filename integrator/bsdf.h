@@ -8,10 +8,12 @@
 // (energy).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "integrator/albedo_tables.h"
 #include "integrator/frame.h"
+#include "integrator/fresnel.h"
 #include "loader/scene.h"
 
 namespace lumivec {
@@ -60,11 +62,17 @@ struct BsdfSample {
 
 // The scattering of one hit: the material at a point, seen from wo. Plain value, built once per
 // hit, no allocation.
+//
+// The lobes, each with one kind: the coat's reflection by the coat's roughness; the base's
+// reflection and transmission by the base's; the diffuse lobe is always non-specular. What
+// microfacets lose by single scattering comes back in two broad lobes that belong to the base's
+// reflection and transmission and have their kind.
 class Bsdf {
  public:
   // geometric_normal: unit, on wo's side. wo: unit, away from the surface. A direction is reflected
   // or transmitted by the geometric normal; where the shading normal disagrees the value is 0.
-  // specular_roughness as in RenderSettings. tables must outlive this.
+  // Shading normals that wo is not above are bent towards it. tables must outlive this.
+  // specular_roughness as in RenderSettings.
   Bsdf(const SurfaceParameters& surface, const V3f& geometric_normal, const V3f& wo,
        const AlbedoTables& tables, float specular_roughness,
        Transport transport = Transport::radiance);
@@ -86,9 +94,92 @@ class Bsdf {
   Color thin_transmittance() const;
 
  private:
+  // What sample() chooses between. reflect and transmit are one choice where both are rough: the
+  // facet that was drawn decides.
+  enum Lobe : std::uint8_t { coat, reflect, transmit, spread, spread_through, diffuse, lobe_count };
+
+  struct LobeState {
+    float probability;  // 0: the lobe is not there
+    LobeKind kind;
+    bool delta;
+  };
+
+  struct Coat {
+    float strength;  // 0: none, and nothing else is set
+    float alpha;
+    AlbedoRow row;
+    const AlbedoTable* table;
+
+    float reflectance(float cos_theta) const;  // directional albedo
+    float transmittance(
+        float cos_theta) const;  // what light of that direction keeps when it crosses
+  };
+
+  // The base's parts that follow from its single-bounce albedos at one direction.
+  Albedo base_albedo(float cos_theta) const;
+  Albedo beyond_albedo(float cos_theta) const;  // likewise of the boundary seen from its other side
+  Color dielectric_remainder(const Albedo& a) const;  // what the dielectric reflection leaves
+  Color lost_in_glass(
+      const Albedo& a) const;  // what neither leaves by one bounce nor passes in one
+
+  using Weights = std::array<float, lobe_count>;  // albedos of the lobes as wo sees them
+
+  void set_coat(const SurfaceParameters& surface, const AlbedoTables& tables, Weights& weights);
+  void set_base(const SurfaceParameters& surface, const AlbedoTables& tables, Weights& weights);
+  void set_spread(const SurfaceParameters& surface, const Albedo& at_wo, const Albedo& average,
+                  Weights& weights);
+  void set_glass_spread(const SurfaceParameters& surface, const Albedo& at_wo,
+                        const Albedo& average, Weights& weights);
+  void couple_with_coat(const Color& remainder, const Albedo& average);
+  void set_lobes(const SurfaceParameters& surface, float specular_roughness, Weights& weights);
+
+  float coat_transmittance(const V3f& wi) const;
+  float reflected_share(const Color& reflected, const Color& passed) const;
+  Color passed(const FresnelShape& shape) const;
+  void add(BsdfValue& value, Lobe lobe, const Color& f_cos, float pdf) const;
+  void eval_coat(const V3f& wi, BsdfValue& value) const;
+  void eval_reflection(const V3f& wi, const V3f& local, BsdfValue& value) const;
+  void eval_thin_transmission(const V3f& wi, const V3f& local, BsdfValue& value) const;
+  void eval_refraction(const V3f& wi, const V3f& local, BsdfValue& value) const;
+  bool sample_facets(float u_side, const V2f& u, V3f& local) const;
+  V3f sample_spread(const AlbedoTable& table, const V2f& u) const;
+  float spread_pdf(const AlbedoTable& table, float cos_theta) const;
+  bool sample_delta(Lobe lobe, BsdfSample& sample) const;
+
   V3f geometric_normal_;
-  V3f normal_;
-  Color diffuse_;
+  V3f wo_;
+  Frame frame_;      // around the base's shading normal
+  Color diffuse_;    // f of the diffuse lobe, but for what depends on wi
+  bool lambertian_;  // nothing but the diffuse lobe: the rest is not set
+
+  bool thin_;
+  bool rough_;            // the base has microfacets
+  bool facets_transmit_;  // … through which light passes
+  V3f local_wo_;
+  float alpha_;
+  float root_wo_;  // smith_root
+  float eta_;
+  AlbedoRow row_;
+  const AlbedoTable* table_;
+  const AlbedoTable* beyond_;  // of 1 / eta_
+  Color dielectric_f0_;
+  Color dielectric_rise_;     // F90 − F0
+  Color dielectric_spread_;   // share of what facets lose that their dielectric reflection returns
+  FresnelCurve reflectance_;  // of dielectric and metal, by their shares
+  Color passing_;             // share and tint of the light that passes the boundary
+  Color straight_;            // f · |cosθ| of the delta lobe of transmission below the coat
+  float transport_scale_;     // of light that crosses into the other index
+  Color spread_;              // f of the broad lobes, but for what depends on wi
+  Color spread_glass_;
+  Color spread_through_;
+
+  Coat coat_;
+  Frame coat_frame_;
+  V3f coat_local_wo_;
+  float coat_root_wo_;
+  float coat_transmittance_wo_;
+
+  LobeState lobes_[lobe_count];
 };
 
 }  // namespace lumivec
