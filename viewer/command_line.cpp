@@ -129,7 +129,9 @@ std::string parse_error_text(const CLI::ParseError& error) {
 int explain(Commands& commands) {
   const std::string& topic = commands.help_topic;
   if (topic.empty()) {
-    std::cout << commands.app.help("", CLI::AppFormatMode::All);
+    // App::help would explain the command that was given, which is this one.
+    std::cout << commands.app.get_formatter()->make_help(&commands.app, "",
+                                                         CLI::AppFormatMode::Normal);
     return exit_success;
   }
   for (CLI::App* command : {commands.render, commands.info, commands.compare, commands.help}) {

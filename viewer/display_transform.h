@@ -20,7 +20,7 @@ struct DisplayOptions {
 
 class DisplayTransform {
  public:
-  // Display and view names match whatever their case. Throws DisplayError (ocio_config.h) for a
+  // Display and view names match whatever their case. Throws DisplayError (display_error.h) for a
   // configuration that cannot be used, and UsageError for a display or view that it does not hold.
   explicit DisplayTransform(const DisplayOptions& options);
   ~DisplayTransform();

@@ -3,17 +3,12 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace lumivec {
+#include "viewer/display_error.h"
 
-// A colour configuration, display or view that cannot be used; what() is one line for the user.
-class DisplayError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace lumivec {
 
 // file: an OpenColorIO configuration; "builtin": the program's own; empty: what the environment
 // variable OCIO names, else the program's own. Throws DisplayError.

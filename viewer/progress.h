@@ -30,7 +30,7 @@ class ProgressPrinter {
   ProgressStyle style_;
   int columns_;
   bool shown_ = false;
-  double next_line_ = 5.0;  // seconds of sampling; twice as late each time, up to a minute
+  double next_line_ = 2.0;  // seconds of sampling; twice as late each time, up to a minute
 };
 
 }  // namespace lumivec

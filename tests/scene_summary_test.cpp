@@ -1,0 +1,88 @@
+#include "viewer/scene_summary.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+using namespace lumivec;
+
+namespace {
+
+// A triangle placed twice and a sphere squeezed to an ellipsoid.
+Scene small_scene() {
+  Scene scene;
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  scene.meshes.push_back(mesh);
+  scene.spheres.push_back({2.0f});
+  scene.materials.resize(2);
+  scene.materials[1].emission = Color(0.0f, 3.0f, 0.0f);
+  Instance first;
+  first.mesh = 0;
+  Instance second = first;
+  second.material = 1;
+  second.object_to_world.setTranslation(V3d(10, 0, 0));
+  Instance ball;
+  ball.sphere = 0;
+  ball.object_to_world.setScale(V3d(1, 0.5, 1));
+  scene.instances = {first, second, ball};
+  Image image;
+  image.name = "wood";
+  image.width = 4;
+  image.height = 2;
+  image.rgba8.resize(32);
+  scene.images.push_back(image);
+  scene.cameras.resize(1);
+  return scene;
+}
+
+}  // namespace
+
+TEST(SceneSummary, CountsShapes) {
+  const SceneCounts counts = count_scene(small_scene());
+  EXPECT_EQ(counts.triangles, 1u);
+  EXPECT_EQ(counts.triangles_instanced, 2u);
+  EXPECT_EQ(counts.spheres, 1u);
+  EXPECT_EQ(counts.emissive_instances, 1u);
+  EXPECT_EQ(counts.bytes_images, 32u);
+}
+TEST(SceneSummary, BoundsTheWorld) {
+  const Imath::Box3d bounds = world_bounds(small_scene());
+  EXPECT_EQ(bounds.min, V3d(-2, -1, -2));
+  EXPECT_EQ(bounds.max, V3d(11, 1, 2));
+}
+TEST(SceneSummary, BoundsATurnedEllipsoid) {
+  Scene scene = small_scene();
+  M44d turn;
+  turn.setEulerAngles(V3d(0, 0, 3.14159265358979 / 4.0));
+  scene.instances = {scene.instances[2]};
+  scene.instances[0].object_to_world = scene.instances[0].object_to_world * turn;
+  EXPECT_NEAR(world_bounds(scene).max.x, std::sqrt((4.0 + 1.0) / 2.0), 1e-9);
+}
+TEST(SceneSummary, OfAnEmptySceneHasNoBounds) {
+  EXPECT_TRUE(world_bounds(Scene()).isEmpty());
+}
+
+TEST(SceneSummary, SaysWhatIsNotShown) {
+  LoadReport report;
+  report.format = "glTF 2.0";
+  report.scene_names = {"room"};
+  report.extensions_ignored = {"KHR_materials_sheen"};
+  report.warnings = {{"/materials/3", "sheen is left out"}};
+  const std::string text = scene_text("room.gltf", small_scene(), report);
+  EXPECT_NE(text.find("not supported: KHR_materials_sheen\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("warning: /materials/3: sheen is left out\n"), std::string::npos);
+  EXPECT_NE(text.find("'wood', 4x2, 8 bit"), std::string::npos);
+}
+TEST(SceneSummary, IsValidJsonWhateverTheNames) {
+  LoadReport report;
+  report.scene_names = {"broken \xff name"};
+  Scene scene = small_scene();
+  scene.cameras[0].name = "\"quoted\"";
+  const auto json = nlohmann::json::parse(scene_json("room.gltf", scene, report));
+  EXPECT_EQ(json["triangles_instanced"], 2);
+  EXPECT_EQ(json["bounds"]["max"][0], 11.0);
+  EXPECT_EQ(json["cameras"][0]["name"], "\"quoted\"");
+  EXPECT_EQ(json["textures"][0]["width"], 4);
+}
