@@ -11,26 +11,28 @@ namespace lumivec {
 
 namespace {
 
-constexpr int albedo_floats = sizeof(Albedo) / sizeof(float);
-
-float* floats(Albedo& a) {
-  return &a.reflected;
-}
-const float* floats(const Albedo& a) {
-  return &a.reflected;
+// a + w · b
+Albedo sum(const Albedo& a, float w, const Albedo& b) {
+  return {.reflected = a.reflected + w * b.reflected,
+          .reflected_exact = a.reflected_exact + w * b.reflected_exact,
+          .reflected_schlick = a.reflected_schlick + w * b.reflected_schlick,
+          .reflected_total = a.reflected_total + w * b.reflected_total,
+          .transmitted = a.transmitted + w * b.transmitted,
+          .transmitted_exact = a.transmitted_exact + w * b.transmitted_exact};
 }
 
 Albedo mix(const Albedo& a, const Albedo& b, float t) {
-  Albedo result;
-  for (int i = 0; i < albedo_floats; ++i)
-    floats(result)[i] = floats(a)[i] + t * (floats(b)[i] - floats(a)[i]);
-  return result;
+  return sum(sum({}, 1.0f - t, a), t, b);
+}
+
+float mix(float a, float b, float t) {
+  return a + t * (b - a);
 }
 
 CoatedAlbedo mix(const CoatedAlbedo& a, const CoatedAlbedo& b, float t) {
-  return {std::lerp(a.coat, b.coat, t), std::lerp(a.reflected, b.reflected, t),
-          std::lerp(a.reflected_exact, b.reflected_exact, t),
-          std::lerp(a.reflected_schlick, b.reflected_schlick, t)};
+  return {mix(a.coat, b.coat, t), mix(a.reflected, b.reflected, t),
+          mix(a.reflected_exact, b.reflected_exact, t),
+          mix(a.reflected_schlick, b.reflected_schlick, t)};
 }
 
 // Gauss-Legendre with three points on [0, 1]: exact to degree 5. Between two columns albedos are
@@ -39,21 +41,16 @@ CoatedAlbedo mix(const CoatedAlbedo& a, const CoatedAlbedo& b, float t) {
 constexpr std::array<float, 3> gauss_points = {0.11270166537925831f, 0.5f, 0.88729833462074169f};
 constexpr std::array<float, 3> gauss_weights = {5.0f / 18.0f, 8.0f / 18.0f, 5.0f / 18.0f};
 
-// f(column, weight) at points of a quadrature of 2 ∫ … μ dμ over a table's columns.
-template <typename CosineOf, typename F>
-void for_each_point(int columns, const CosineOf& cosine_of, const F& f) {
-  for (int column = 0; column + 1 < columns; ++column) {
-    const float low = cosine_of(static_cast<float>(column));
-    const float high = cosine_of(static_cast<float>(column + 1));
-    for (int i = 0; i < 3; ++i) {
-      // μ is quadratic within the column: its slope follows from its values at both ends and in the
-      // middle.
-      const float middle = cosine_of(column + 0.5f);
-      const float x = gauss_points[i];
-      const float slope = (high - low) + (2.0f * x - 1.0f) * 2.0f * (low + high - 2.0f * middle);
-      const float mu = cosine_of(column + x);
-      f(column + x, mu, gauss_weights[i] * 2.0f * mu * slope);
-    }
+// f(column, weight of 2 ∫ … μ dμ) at the points of the quadrature between two cosines, middle being
+// that half way.
+template <typename F>
+void for_each_point(float low, float middle, float high, const F& f) {
+  for (int i = 0; i < 3; ++i) {
+    const float x = gauss_points[i];
+    const float bend = 2.0f * (low + high - 2.0f * middle);
+    const float slope = (high - low) + (2.0f * x - 1.0f) * bend;
+    const float mu = low + x * ((high - low) + (x - 1.0f) * bend);
+    f(x, mu, gauss_weights[i] * 2.0f * mu * slope);
   }
 }
 
@@ -66,6 +63,7 @@ AlbedoTable::AlbedoTable(float eta)
       critical_column_(eta < 1.0f ? 24 : 0),
       nodes_(rows * columns_),
       lost_(rows * columns_),
+      loss_density_(rows * columns_),
       coated_(rows * rows) {
   const auto square = [](float x) { return x * x; };
   beyond_scale_ = square(columns_ - 1 - critical_column_) / (1.0f - critical_cosine_);
@@ -77,47 +75,47 @@ AlbedoTable::AlbedoTable(float eta)
     for (int column = 0; column < columns_; ++column)
       nodes_[row * columns_ + column] =
           ggx_albedo(cosine_of(static_cast<float>(column)), roughness * roughness, eta);
-    for_each_point(
-        columns_, [this](float column) { return cosine_of(column); },
-        [&](float column, float, float weight) {
-          const Albedo a = interpolate(row, column);
-          for (int i = 0; i < albedo_floats; ++i)
-            floats(averages_[row])[i] += weight * floats(a)[i];
-          lost_[row * columns_ + static_cast<int>(column) + 1] +=
-              weight * std::max(0.0f, 1.0f - a.reflected);
-        });
-    for (int column = 1; column < columns_; ++column)
-      lost_[row * columns_ + column] += lost_[row * columns_ + column - 1];
+    for (int column = 0; column + 1 < columns_; ++column) {
+      float lost = 0.0f;
+      const auto [low, middle, high] = cosines(column);
+      for_each_point(low, middle, high, [&](float x, float, float weight) {
+        const Albedo a = mix(*node(row, column), *node(row, column + 1), x);
+        averages_[row] = sum(averages_[row], weight, a);
+        lost += weight * std::max(0.0f, 1.0f - a.reflected);
+      });
+      const int place = row * columns_ + column;
+      lost_[place + 1] = lost_[place] + lost;
+      loss_density_[place] = lost / ((high - low) * 2.0f * std::numbers::pi_v<float>);
+    }
   }
+}
+
+std::array<float, 3> AlbedoTable::cosines(int column) const {
+  return {cosine_of(static_cast<float>(column)), cosine_of(column + 0.5f),
+          cosine_of(column + 1.0f)};
 }
 
 void AlbedoTable::multiply_with_coat(const AlbedoTable& coat) {
   const float f0 = normal_reflectance(coat.eta_);
-  struct Point {
-    float column, mu, weight;
-  };
-  std::vector<Point> points;
-  for_each_point(
-      columns_, [this](float column) { return cosine_of(column); },
-      [&](float column, float mu, float weight) {
-        points.push_back({column, mu, weight});
-      });
-  std::vector<Albedo> albedos(rows * points.size());
-  std::vector<float> coat_albedos(rows * points.size());  // times the point's weight
+  const std::size_t points = 3 * static_cast<std::size_t>(columns_ - 1);
+  std::vector<Albedo> albedos;
+  std::vector<float> coat_albedos;  // times the points' weights
   for (int row = 0; row < rows; ++row) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::size_t place = row * points.size() + i;
-      albedos[place] = interpolate(row, points[i].column);
-      const Albedo c = coat.interpolate(row, coat.column_of(points[i].mu));
-      coat_albedos[place] = points[i].weight * (f0 * c.reflected + (1.0f - f0) * c.reflected_exact);
+    for (int column = 0; column + 1 < columns_; ++column) {
+      const auto [low, middle, high] = cosines(column);
+      for_each_point(low, middle, high, [&](float x, float mu, float weight) {
+        albedos.push_back(at({column, x}, {row, 0.0f}));
+        const Albedo c = coat.at(coat.column_of(mu), {row, 0.0f});
+        coat_albedos.push_back(weight * (f0 * c.reflected + (1.0f - f0) * c.reflected_exact));
+      });
     }
   }
   for (int row = 0; row < rows; ++row) {
     for (int coat_row = 0; coat_row < rows; ++coat_row) {
       CoatedAlbedo& sum = coated_[row * rows + coat_row];
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const Albedo& a = albedos[row * points.size() + i];
-        const float w = coat_albedos[coat_row * points.size() + i];
+      for (std::size_t i = 0; i < points; ++i) {
+        const Albedo& a = albedos[row * points + i];
+        const float w = coat_albedos[coat_row * points + i];
         sum.coat += w;
         sum.reflected += w * a.reflected;
         sum.reflected_exact += w * a.reflected_exact;
@@ -127,8 +125,7 @@ void AlbedoTable::multiply_with_coat(const AlbedoTable& coat) {
   }
 }
 
-// Columns are denser where albedos change fastest: at grazing incidence, and on both sides of the
-// critical angle, where a dielectric's reflectance falls like a square root.
+// Inverse of column_place.
 float AlbedoTable::cosine_of(float column) const {
   if (column >= critical_column_) {
     const float x = (column - critical_column_) / (columns_ - 1 - critical_column_);
@@ -141,19 +138,6 @@ float AlbedoTable::cosine_of(float column) const {
   return grazing ? distance : critical_cosine_ - distance;
 }
 
-float AlbedoTable::column_of(float cos_theta) const {
-  if (cos_theta >= critical_cosine_)
-    return critical_column_ + std::sqrt((cos_theta - critical_cosine_) * beyond_scale_);
-  const bool grazing = cos_theta < 0.5f * critical_cosine_;
-  const float x = std::sqrt((grazing ? cos_theta : critical_cosine_ - cos_theta) * before_scale_);
-  return grazing ? x : critical_column_ - x;
-}
-
-Albedo AlbedoTable::interpolate(int row, float column) const {
-  const int first = std::min(static_cast<int>(column), columns_ - 2);
-  return mix(node(row, first), node(row, first + 1), column - first);
-}
-
 AlbedoRow AlbedoTable::row_of(float roughness) {
   if (roughness < delta_roughness) return {};
   const float y =
@@ -161,11 +145,6 @@ AlbedoRow AlbedoTable::row_of(float roughness) {
   const float place = 1.0f + y * (rows - 2);
   const int row = std::min(static_cast<int>(place), rows - 2);
   return {row, place - row};
-}
-
-Albedo AlbedoTable::at(float cos_theta, AlbedoRow row) const {
-  const float column = column_of(std::min(cos_theta, 1.0f));
-  return mix(interpolate(row.row, column), interpolate(row.row + 1, column), row.fraction);
 }
 
 Albedo AlbedoTable::average(AlbedoRow row) const {
@@ -181,7 +160,7 @@ CoatedAlbedo AlbedoTable::coated_average(AlbedoRow row, AlbedoRow coat_row) cons
 
 float AlbedoTable::lost(AlbedoRow row, int column) const {
   const float* const low = &lost_[row.row * columns_ + column];
-  return std::lerp(low[0], low[columns_], row.fraction);
+  return mix(low[0], low[columns_], row.fraction);
 }
 
 float AlbedoTable::sample_loss(float u, AlbedoRow row) const {
@@ -194,16 +173,7 @@ float AlbedoTable::sample_loss(float u, AlbedoRow row) const {
   const float below = lost(row, first);
   const float mass = lost(row, last) - below;
   const float t = mass > 0.0f ? std::clamp((target - below) / mass, 0.0f, 1.0f) : 0.5f;
-  return std::lerp(cosine_of(static_cast<float>(first)), cosine_of(static_cast<float>(last)), t);
-}
-
-float AlbedoTable::loss_pdf(float cos_theta, AlbedoRow row) const {
-  const float all = lost(row, columns_ - 1);
-  if (all <= 0.0f) return 0.0f;
-  const int first = std::min(static_cast<int>(column_of(std::min(cos_theta, 1.0f))), columns_ - 2);
-  const float width = cosine_of(first + 1.0f) - cosine_of(static_cast<float>(first));
-  return (lost(row, first + 1) - lost(row, first)) /
-         (all * width * 2.0f * std::numbers::pi_v<float>);
+  return mix(cosine_of(static_cast<float>(first)), cosine_of(static_cast<float>(last)), t);
 }
 
 AlbedoTables::AlbedoTables(std::span<const float> indices) {
@@ -219,17 +189,13 @@ AlbedoTables::AlbedoTables(std::span<const float> indices) {
 }
 
 const AlbedoTable& AlbedoTables::nearest(float eta) const {
+  for (const AlbedoTable& table : tables_)
+    if (table.eta() == eta) return table;
   if (!(eta > 0.0f)) return tables_.front();
-  const AlbedoTable* best = &tables_.front();
-  float best_ratio = std::numeric_limits<float>::infinity();
-  for (const AlbedoTable& table : tables_) {
-    const float ratio = std::max(table.eta() / eta, eta / table.eta());
-    if (ratio < best_ratio) {
-      best_ratio = ratio;
-      best = &table;
-    }
-  }
-  return *best;
+  const auto ratio = [eta](const AlbedoTable& t) { return std::max(t.eta() / eta, eta / t.eta()); };
+  return *std::min_element(
+      tables_.begin(), tables_.end(),
+      [&](const AlbedoTable& a, const AlbedoTable& b) { return ratio(a) < ratio(b); });
 }
 
 }  // namespace lumivec

@@ -5,7 +5,10 @@
 // index; a lookup about 5 ns.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -23,6 +26,12 @@ constexpr float coat_index = 1.5f;
 struct AlbedoRow {
   int row = 0;
   float fraction = 0.0f;  // of the way to the next row
+};
+
+// A cosine as a place between two columns of one table.
+struct AlbedoColumn {
+  int column = 0;
+  float fraction = 0.0f;  // of the way to the next column
 };
 
 // Means over the cosine-weighted hemisphere of products with the albedo of a coat of index
@@ -45,7 +54,13 @@ class AlbedoTable {
   float eta() const { return eta_; }
 
   // cos_theta in [0, 1].
-  Albedo at(float cos_theta, AlbedoRow row) const;
+  AlbedoColumn column_of(float cos_theta) const {
+    const float place = column_place(std::min(cos_theta, 1.0f));
+    const int column = std::min(static_cast<int>(place), columns_ - 2);
+    return {column, place - column};
+  }
+
+  Albedo at(AlbedoColumn column, AlbedoRow row) const;
 
   // 2 ∫ at(μ) μ dμ over [0, 1], exact for the interpolated table: energy balances to rounding.
   Albedo average(AlbedoRow row) const;
@@ -56,7 +71,7 @@ class AlbedoTable {
   // loss_pdf is the density of such directions in sr⁻¹, at most a few times off that. Not for row
   // 0.
   float sample_loss(float u, AlbedoRow row) const;
-  float loss_pdf(float cos_theta, AlbedoRow row) const;
+  float loss_pdf(AlbedoColumn column, AlbedoRow row) const;
 
   // Computes coated_average's table. coat: the table of the coat's index; may be *this.
   void multiply_with_coat(const AlbedoTable& coat);
@@ -64,11 +79,11 @@ class AlbedoTable {
  private:
   static constexpr int rows = 20;  // row 0 is smooth, the others run from delta_roughness to 1
 
-  float column_of(float cos_theta) const;
+  float column_place(float cos_theta) const;
   float cosine_of(float column) const;
-  Albedo interpolate(int row, float column) const;
+  std::array<float, 3> cosines(int column) const;  // at, half way beyond and one beyond the column
   float lost(AlbedoRow row, int column) const;
-  const Albedo& node(int row, int column) const { return nodes_[row * columns_ + column]; }
+  const Albedo* node(int row, int column) const { return &nodes_[row * columns_ + column]; }
 
   float eta_;
   int columns_;
@@ -78,10 +93,44 @@ class AlbedoTable {
   float before_scale_;
   std::vector<Albedo> nodes_;
   std::array<Albedo, rows> averages_;
-  std::vector<float>
-      lost_;  // rows × columns: 2 ∫ (1 − reflected) μ dμ from 0 to the column's cosine
+  std::vector<float> lost_;  // rows × columns: 2 ∫ (1 − reflected) μ dμ up to the column's cosine
+  std::vector<float> loss_density_;  // rows × columns: its mean slope to the next column, over 2π
   std::vector<CoatedAlbedo> coated_;  // rows × rows, by (row, coat's row)
 };
+
+// Columns are denser where albedos change fastest: at grazing incidence, and on both sides of the
+// critical angle, where a dielectric's reflectance falls like a square root.
+inline float AlbedoTable::column_place(float cos_theta) const {
+  if (cos_theta >= critical_cosine_)
+    return critical_column_ + std::sqrt((cos_theta - critical_cosine_) * beyond_scale_);
+  const bool grazing = cos_theta < 0.5f * critical_cosine_;
+  const float x = std::sqrt((grazing ? cos_theta : critical_cosine_ - cos_theta) * before_scale_);
+  return grazing ? x : critical_column_ - x;
+}
+
+inline Albedo AlbedoTable::at(AlbedoColumn column, AlbedoRow row) const {
+  using Floats = std::array<float, sizeof(Albedo) / sizeof(float)>;
+  const Albedo* const low = node(row.row, column.column);
+  const Albedo* const high = low + columns_;
+  const auto a = std::bit_cast<Floats>(low[0]), b = std::bit_cast<Floats>(low[1]);
+  const auto c = std::bit_cast<Floats>(high[0]), d = std::bit_cast<Floats>(high[1]);
+  const float wd = column.fraction * row.fraction;
+  const float wc = row.fraction - wd, wb = column.fraction - wd;
+  const float wa = 1.0f - row.fraction - wb;
+  Floats sum;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    sum[i] = wa * a[i] + wb * b[i] + wc * c[i] + wd * d[i];
+  return std::bit_cast<Albedo>(sum);
+}
+
+inline float AlbedoTable::loss_pdf(AlbedoColumn column, AlbedoRow row) const {
+  const auto mix = [&](const std::vector<float>& values, int place) {
+    const float* const low = &values[row.row * columns_ + place];
+    return low[0] + row.fraction * (low[columns_] - low[0]);
+  };
+  const float all = mix(lost_, columns_ - 1);
+  return all > 0.0f ? mix(loss_density_, column.column) / all : 0.0f;
+}
 
 // The tables of all indices that a scene has, and of the coat. Immutable once built, so any threads
 // may read it.

@@ -56,7 +56,7 @@ Color multiple_bounces(const Color& f, float albedo_average) {
 float Bsdf::Coat::reflectance(float cos_theta) const {
   if (row.row == 0) return fresnel_dielectric(cos_theta, coat_index).reflectance;
   const float f0 = normal_reflectance(coat_index);
-  const Albedo a = table->at(cos_theta, row);
+  const Albedo a = table->at(table->column_of(cos_theta), row);
   return f0 * a.reflected + (1.0f - f0) * a.reflected_exact;
 }
 
@@ -68,13 +68,9 @@ float Bsdf::Coat::transmittance(float cos_theta) const {
 
 Albedo Bsdf::base_albedo(float cos_theta) const {
   if (!rough_) return ggx_albedo(cos_theta, 0.0f, eta_);
-  Albedo a = table_->at(cos_theta, row_);
+  Albedo a = table_->at(table_->column_of(cos_theta), row_);
   if (eta_ == 0.0f) a.reflected_exact = a.reflected_schlick;
   return a;
-}
-
-Albedo Bsdf::beyond_albedo(float cos_theta) const {
-  return beyond_->at(cos_theta, row_);
 }
 
 Color Bsdf::dielectric_remainder(const Albedo& a) const {
@@ -138,7 +134,7 @@ void Bsdf::set_base(const SurfaceParameters& surface, const AlbedoTables& tables
   local_wo_ = frame_.to_local(wo_);
   root_wo_ = smith_root(local_wo_.z, alpha_);
   table_ = &tables.nearest(eta_);
-  beyond_ = eta_ > 0.0f ? &tables.nearest(1.0f / eta_) : table_;
+  beyond_ = !thin_ && eta_ > 0.0f ? &tables.nearest(1.0f / eta_) : table_;
 
   dielectric_f0_ = at_most_1(surface.specular_color * normal_reflectance(eta_)) * surface.specular;
   dielectric_rise_ = eta_ == 1.0f ? Color(0.0f) : Color(surface.specular) - dielectric_f0_;

@@ -117,7 +117,6 @@ class Bsdf {
 
   // The base's parts that follow from its single-bounce albedos at one direction.
   Albedo base_albedo(float cos_theta) const;
-  Albedo beyond_albedo(float cos_theta) const;  // likewise of the boundary seen from its other side
   Color dielectric_remainder(const Albedo& a) const;  // what the dielectric reflection leaves
   Color lost_in_glass(
       const Albedo& a) const;  // what neither leaves by one bounce nor passes in one
@@ -143,7 +142,7 @@ class Bsdf {
   void eval_refraction(const V3f& wi, const V3f& local, BsdfValue& value) const;
   bool sample_facets(float u_side, const V2f& u, V3f& local) const;
   V3f sample_spread(const AlbedoTable& table, const V2f& u) const;
-  float spread_pdf(const AlbedoTable& table, float cos_theta) const;
+  float spread_pdf(const AlbedoTable& table, AlbedoColumn column, float cos_theta) const;
   bool sample_delta(Lobe lobe, BsdfSample& sample) const;
 
   V3f geometric_normal_;

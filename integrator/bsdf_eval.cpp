@@ -36,8 +36,8 @@ void Bsdf::add(BsdfValue& value, Lobe lobe, const Color& f_cos, float pdf) const
   }
 }
 
-float Bsdf::spread_pdf(const AlbedoTable& table, float cos_theta) const {
-  return 0.5f * (cosine_hemisphere_pdf(cos_theta) + table.loss_pdf(cos_theta, row_));
+float Bsdf::spread_pdf(const AlbedoTable& table, AlbedoColumn column, float cos_theta) const {
+  return 0.5f * (cosine_hemisphere_pdf(cos_theta) + table.loss_pdf(column, row_));
 }
 
 BsdfValue Bsdf::eval(const V3f& wi) const {
@@ -102,7 +102,7 @@ void Bsdf::eval_reflection(const V3f& wi, const V3f& i, BsdfValue& value) const 
   if (spreads) {
     Color f = spread_ * (kept_i * std::max(0.0f, 1.0f - a.reflected));
     if (facets_transmit_ && !thin_) f += spread_glass_ * lost_in_glass(a) * kept;
-    add(value, spread, f * i.z, spread_pdf(*table_, i.z));
+    add(value, spread, f * i.z, spread_pdf(*table_, table_->column_of(i.z), i.z));
   }
 }
 
@@ -121,8 +121,10 @@ void Bsdf::eval_thin_transmission(const V3f& wi, const V3f& i, BsdfValue& value)
   add(value, reflect, t * f_cos,
       (1.0f - reflected_share(f, t)) * reflected_facet_pdf(density, o.z, root_wo_));
   if (lobes_[spread_through].probability <= 0.0f) return;
-  const float lost = std::max(0.0f, 1.0f - base_albedo(-i.z).reflected);
-  add(value, spread_through, spread_through_ * (kept * lost * -i.z), spread_pdf(*table_, -i.z));
+  const AlbedoColumn column = table_->column_of(-i.z);
+  const float lost = std::max(0.0f, 1.0f - table_->at(column, row_).reflected);
+  add(value, spread_through, spread_through_ * (kept * lost * -i.z),
+      spread_pdf(*table_, column, -i.z));
 }
 
 // Walter et al. 2007, equations 17 and 21. The half vector there is −(o + η i), and the squared sum
@@ -131,8 +133,9 @@ void Bsdf::eval_refraction(const V3f& wi, const V3f& i, BsdfValue& value) const 
   const V3f& o = local_wo_;
   const float kept = std::min(coat_transmittance_wo_, coat_transmittance(wi)) * transport_scale_;
   if (lobes_[spread_through].probability > 0.0f) {
-    const Color f = spread_through_ * lost_in_glass(beyond_albedo(-i.z));
-    add(value, spread_through, f * (kept * -i.z), spread_pdf(*beyond_, -i.z));
+    const AlbedoColumn column = beyond_->column_of(-i.z);
+    const Color f = spread_through_ * lost_in_glass(beyond_->at(column, row_));
+    add(value, spread_through, f * (kept * -i.z), spread_pdf(*beyond_, column, -i.z));
   }
   const V3f sum = o + eta_ * i;
   const float length2 = sum.length2();
