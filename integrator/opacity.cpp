@@ -26,6 +26,18 @@ FilteredHit filtered_hit(const RTCFilterFunctionNArguments& arguments, unsigned 
   return result;
 }
 
+// Embree shows the filters of instanced geometry the ray in object space.
+void bring_to_traced_space(const TracedScene& scene, int instance, FilteredHit& f) {
+  if (f.hit.instance == RTC_INVALID_GEOMETRY_ID) return;
+  const M44d m = scene.object_to_traced(instance);
+  const int sphere = scene.scene().instances[std::size_t(instance)].sphere;
+  const double unit = sphere >= 0 ? scene.scene().spheres[std::size_t(sphere)].radius : 1.0;
+  V3d direction;
+  m.multDirMatrix(V3d(f.direction) * unit, direction);
+  f.origin = V3f(V3d(f.origin) * unit * m);
+  f.direction = V3f(direction);
+}
+
 // Whether the ray with this seed finds the surface there.
 bool is_hit(const TracedScene& scene, const SurfacePoint& point, std::uint32_t seed) {
   const float opacity = scene.opacity(point);
@@ -42,10 +54,11 @@ void filter_intersection(const RTCFilterFunctionNArguments* arguments) {
   const auto& query = *reinterpret_cast<const TraceQuery*>(arguments->context);
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] == 0) continue;
-    const FilteredHit f = filtered_hit(*arguments, i);
-    const TracedInstance& instance =
-        query.scene->instances()[std::size_t(query.scene->instance_of(f.hit))];
+    FilteredHit f = filtered_hit(*arguments, i);
+    const int index = query.scene->instance_of(f.hit);
+    const TracedInstance& instance = query.scene->instances()[std::size_t(index)];
     if (instance.material->alpha_mode == AlphaMode::opaque) continue;
+    bring_to_traced_space(*query.scene, index, f);
     const SurfacePoint point = query.scene->surface(f.hit, f.origin, f.direction);
     if (!is_hit(*query.scene, point, query.seeds ? query.seeds[f.lane] : 0))
       arguments->valid[i] = 0;
@@ -56,13 +69,13 @@ void filter_occlusion(const RTCFilterFunctionNArguments* arguments) {
   const auto& query = *reinterpret_cast<const TraceQuery*>(arguments->context);
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] == 0) continue;
-    const FilteredHit f = filtered_hit(*arguments, i);
-    const TracedInstance& instance =
-        query.scene->instances()[std::size_t(query.scene->instance_of(f.hit))];
-    const Material& material = *instance.material;
+    FilteredHit f = filtered_hit(*arguments, i);
+    const int index = query.scene->instance_of(f.hit);
+    const Material& material = *query.scene->instances()[std::size_t(index)].material;
     const bool maybe_thin = query.transmittance && material.transmission > 0.0f &&
                             material.thin_walled && !material.unlit;
     if (material.alpha_mode == AlphaMode::opaque && !maybe_thin) continue;
+    bring_to_traced_space(*query.scene, index, f);
     const SurfacePoint point = query.scene->surface(f.hit, f.origin, f.direction);
     if (!is_hit(*query.scene, point, query.seeds ? query.seeds[f.lane] : 0)) {
       arguments->valid[i] = 0;
