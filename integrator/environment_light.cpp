@@ -36,14 +36,29 @@ EnvironmentLight::EnvironmentLight(const Scene& scene)
   const int width = image_->width, height = image_->height;
   row_cdf_.resize(std::size_t(height) + 1);
   column_cdf_.resize(std::size_t(height) * std::size_t(width + 1));
+  const auto brightness = [&](int column, int row) {
+    const float* texel =
+        image_->rgba32f.data() + 4 * (std::size_t(row) * std::size_t(width) + std::size_t(column));
+    return std::max(0.0f, mean(scale_ * Color(texel[0], texel[1], texel[2])));
+  };
+  // Bilinear interpolation spreads a texel over its neighbours: a texel's share is what radiance()
+  // shows within it, or a sun's rim would be found by luck alone.
+  constexpr double center_share = 0.75, side_share = 0.125;
+  std::vector<double> rows(std::size_t(width), 0.0);
   double total = 0.0, solid = 0.0;
   for (int y = 0; y < height; ++y) {
     float* cdf = column_cdf_.data() + std::size_t(y) * std::size_t(width + 1);
-    const float* texel = image_->rgba32f.data() + 4 * std::size_t(y) * std::size_t(width);
+    for (int x = 0; x < width; ++x) {
+      rows[std::size_t(x)] = center_share * brightness(x, y) +
+                             side_share * (brightness(x, std::max(y - 1, 0)) +
+                                           brightness(x, std::min(y + 1, height - 1)));
+    }
     double sum = 0.0;
     cdf[0] = 0.0f;
-    for (int x = 0; x < width; ++x, texel += 4) {
-      sum += std::max(0.0f, mean(scale_ * Color(texel[0], texel[1], texel[2])));
+    for (int x = 0; x < width; ++x) {
+      sum += center_share * rows[std::size_t(x)] +
+             side_share *
+                 (rows[std::size_t((x + width - 1) % width)] + rows[std::size_t((x + 1) % width)]);
       cdf[x + 1] = static_cast<float>(sum);
     }
     for (int x = 1; x <= width; ++x) {
