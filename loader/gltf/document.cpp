@@ -1,6 +1,7 @@
 #include "loader/gltf/document.h"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <utility>
 
@@ -111,15 +112,29 @@ void put_placeholders(json& root, std::size_t accessors) {
   for (std::size_t i = 0; i < accessors; ++i) root["accessors"].push_back(accessor);
 }
 
-// glTF 2.x with a minimum version of at most 2.0.
-void check_version(const Context& context, const json& asset) {
+// The minor part of "2.MINOR"; none for anything else.
+std::optional<int> minor_version(const std::string& version) {
+  int minor = 0;
+  const char* end = version.data() + version.size();
+  if (!version.starts_with("2.")) return std::nullopt;
+  const auto [stop, error] = std::from_chars(version.data() + 2, end, minor);
+  if (error != std::errc() || stop != end || minor < 0) return std::nullopt;
+  return minor;
+}
+
+void check_version(Context& context, const json& asset) {
   const std::string version = asset["version"].get<std::string>();
   const std::string needed = asset.value("minVersion", std::string("2.0"));
-  if (!version.starts_with("2.") || needed != "2.0") {
+  const auto minor = minor_version(version);
+  const auto needed_minor = minor_version(needed);
+  if (!minor || !needed_minor || *needed_minor > *minor) {
     context.fail("/asset",
-                 "glTF version " + printable(version) + ", at least " + printable(needed) +
-                     ", is not supported",
+                 "glTF version " + printable(version) + " with a minimum of " +
+                     printable(needed) + " is not supported",
                  "convert the file to glTF 2.0");
+  }
+  if (*needed_minor > 0) {
+    context.warn("/asset", "is made for glTF " + needed + " and read as 2.0");
   }
 }
 

@@ -165,7 +165,9 @@ class Checker {
   std::size_t size_of(std::string_view target) {
     const auto known = sizes_.find(target);
     if (known != sizes_.end()) return known->second;
-    const json::json_pointer path("/" + std::string(target));
+    std::string text(1, '/');
+    text += target;
+    const json::json_pointer path(text);
     const bool exists = root_.contains(path) && root_.at(path).is_array();
     return sizes_[target] = exists ? root_.at(path).size() : 0;
   }
