@@ -421,6 +421,7 @@ bool Lights::sample_emitter(const Emitter& e, const V3f& p, const V2f& u, LightS
       break;
     }
   }
+  if (!(out.distance > 0.0f)) return false;  // p lies on the light
   const float facing = -out.direction.dot(normal);
   if (facing <= 0.0f && !e.two_sided) return false;
   if (!(out.pdf > 0.0f) || !std::isfinite(out.pdf)) return false;
