@@ -24,9 +24,13 @@ class MediumStack {
   // Index of refraction on the front side of material's boundary, of which the path is on the given
   // side.
   float outside_ior(const Material& material, bool front) const {
+    bool left = front;
     for (int i = count_; i-- > 0;) {
       const Material* m = materials_[std::size_t(i)];
-      if (!front && m == &material) continue;
+      if (!left && m == &material) {  // once: what surrounds it may be of the same material
+        left = true;
+        continue;
+      }
       return m->ior > 0.0f ? m->ior : 1.0f;
     }
     return 1.0f;
