@@ -18,6 +18,10 @@ constexpr int lane_count = 8;
 constexpr int first_roulette_depth = 2;
 // Survivors of the roulette are at most this much brighter, which bounds the noise that it adds.
 constexpr float min_survival = 0.05f;
+// Paths that lose nothing, between mirrors or by total reflection, end all the same: from this
+// depth on by this chance.
+constexpr int endless_depth = 64;
+constexpr float endless_survival = 0.99f;
 
 float max_component(const Color& c) {
   return std::max({c.x, c.y, c.z});
@@ -363,11 +367,9 @@ class PathStream {
     if ((reachable_terms(next) & t_.settings_.terms) == 0) return;
     lane.term = next;
     ++lane.depth;
-    if (straight_through && lane.light_sampled) {
-      // Shadow rays pass thin walls too: light sampling at the last vertex competes with this path
-      // still.
-      lane.scatter_pdf *= s.pdf;
-    } else {
+    // Shadow rays pass thin walls too: light sampling at the last vertex competes with this path
+    // still, weighted by the density there, as it is itself.
+    if (!straight_through || !lane.light_sampled) {
       lane.light_sampled = !s.delta && lights_sampled;
       lane.scatter_pdf = s.pdf;
       lane.vertex = point.position;
@@ -379,7 +381,8 @@ class PathStream {
     }
     if (lane.depth >= first_roulette_depth) {
       const float survival =
-          std::clamp(max_component(lane.throughput) * lane.radiance_scale, min_survival, 1.0f);
+          std::clamp(max_component(lane.throughput) * lane.radiance_scale, min_survival,
+                     lane.depth < endless_depth ? 1.0f : endless_survival);
       if (survival < 1.0f) {
         if (u[3] >= survival) return;
         lane.throughput *= 1.0f / survival;
