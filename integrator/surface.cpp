@@ -255,7 +255,9 @@ SurfaceParameters TracedScene::parameters(const SurfacePoint& point, float outsi
   p.clearcoat_roughness = std::clamp(
       m.clearcoat_roughness * texture(*this, point, m.clearcoat_roughness_map).y, 0.0f, 1.0f);
   const bool from_inside = !point.front && !m.thin_walled && m.transmission > 0.0f;
-  p.eta = from_inside && m.ior > 0.0f ? outside_ior / m.ior : m.ior / outside_ior;
+  // Shadow rays pass thin walls without knowing their surroundings: nothing else may either.
+  const float around = m.thin_walled && m.transmission > 0.0f ? 1.0f : outside_ior;
+  p.eta = from_inside && m.ior > 0.0f ? around / m.ior : m.ior / around;
   return p;
 }
 
