@@ -50,6 +50,11 @@ CameraRay CameraView::ray(float x, float y) const {
   return ray;
 }
 
+float CameraView::visible_distance(const V3f& p, float distance) const {
+  const float z = depth(p);
+  return distance * (z - near_) / z;
+}
+
 bool CameraView::project(const V3f& p, V2f& pixel, V3f& to_eye, float& distance,
                          float& importance) const {
   const V3f offset = p - position_;

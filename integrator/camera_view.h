@@ -25,6 +25,10 @@ class CameraView {
   // Distance of a traced-space point along the view axis.
   float depth(const V3f& p) const { return (p - position_).dot(forward_); }
 
+  // How much of the distance from p to the eye must be free for the eye to see it: all but what
+  // lies before znear.
+  float visible_distance(const V3f& p, float distance) const;
+
   // Where the eye sees p. False: behind the eye or outside the picture. importance: what a path
   // from the light that is connected to the eye is weighted by, pixel⁻¹ (W_e · |cosθ| / distance²,
   // over a picture of pixels of area one).

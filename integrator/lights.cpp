@@ -20,6 +20,9 @@ constexpr float min_texture_share = 0.02f;
 // Each group of lights (finite, environment, directional) that may contribute gets at least this
 // share of the samples.
 constexpr float min_group_share = 0.1f;
+// Lights up to this share of the scene's radius are found so rarely through glass that light paths
+// do better.
+constexpr float max_light_traced_size = 0.02f;
 // Shadow rays end this much before their target, relative to their length: rounding of the length
 // itself.
 constexpr float shadow_ray_end = 1.0f - 4e-7f;
@@ -235,7 +238,7 @@ void Lights::add_light(const Light& light) {
   add(emitter, bounds);
 }
 
-float Lights::directional_weight(const Directional& light, const V3f& normal) const {
+float Lights::directional_weight(const DirectionalLight& light, const V3f& normal) const {
   const float cosine = normal == V3f(0.0f) ? 1.0f : std::max(0.0f, light.direction.dot(normal));
   return mean(light.illuminance) * cosine;
 }
@@ -245,7 +248,8 @@ Lights::Shares Lights::shares(const V3f& p, const V3f& normal) const {
   const float tree = tree_.importance(p, normal);
   const float environment = pi * environment_.mean_radiance();
   float directional = 0.0f;
-  for (const Directional& light : directional_) directional += directional_weight(light, normal);
+  for (const DirectionalLight& light : directional_)
+    directional += directional_weight(light, normal);
   const float sum = tree + environment + directional;
   Shares result;
   if (!(sum > 0.0f) || !std::isfinite(sum)) return result;
@@ -288,10 +292,11 @@ bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u
     out.radiance = environment_.radiance(out.direction);
     out.pdf *= share.environment;
     out.delta = false;
+    out.light_traced = false;
     return out.pdf > 0.0f;
   }
   u_light -= share.environment;
-  for (const Directional& light : directional_) {
+  for (const DirectionalLight& light : directional_) {
     const float probability = directional_weight(light, normal) * share.directional_scale;
     if (u_light < probability) {
       out.direction = light.direction;
@@ -299,6 +304,7 @@ bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u
       out.radiance = light.illuminance;
       out.pdf = probability;
       out.delta = true;
+      out.light_traced = leaves_caustics_;
       return true;
     }
     u_light -= probability;
@@ -306,8 +312,17 @@ bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u
   return false;
 }
 
+float spot_falloff(const Emitter& spot, const V3f& direction) {
+  const float cosine = direction.dot(spot.edge_u);
+  if (cosine >= spot.cos_inner) return 1.0f;
+  if (cosine <= spot.cos_outer) return 0.0f;
+  const float ramp = (cosine - spot.cos_outer) / (spot.cos_inner - spot.cos_outer);
+  return ramp * ramp;
+}
+
 bool Lights::sample_emitter(const Emitter& e, const V3f& p, const V2f& u, LightSample& out) const {
   out.delta = false;
+  out.light_traced = e.light_traced;
   SurfacePoint point;  // on the light, for what varies over it
   V3f normal(0.0f);
   switch (e.kind) {
@@ -321,12 +336,9 @@ bool Lights::sample_emitter(const Emitter& e, const V3f& p, const V2f& u, LightS
       out.target = e.origin;
       out.radiance = e.emission * (1.0f / d2);
       if (e.kind == EmitterKind::spot) {
-        // KHR_lights_punctual: squared linear ramp of the cosine between the two cones.
-        const float cosine = -out.direction.dot(e.edge_u);
-        const float ramp = std::clamp(
-            (cosine - e.cos_outer) / std::max(e.cos_inner - e.cos_outer, 1e-7f), 0.0f, 1.0f);
-        if (ramp <= 0.0f) return false;
-        out.radiance *= ramp * ramp;
+        const float falloff = spot_falloff(e, -out.direction);
+        if (falloff <= 0.0f) return false;
+        out.radiance *= falloff;
       }
       out.pdf = 1.0f;
       out.delta = true;
@@ -485,12 +497,36 @@ float Lights::emitter_pdf(const Emitter& e, const V3f& p, const SurfacePoint& hi
   return 0.0f;
 }
 
-float Lights::pdf(const V3f& p, const V3f& normal, const SurfacePoint& hit) const {
+// The emitter that the emissive surface belongs to; -1: light sampling does not know it.
+int Lights::emitter_of(const SurfacePoint& hit) const {
   const std::int64_t first = first_triangle_[std::size_t(hit.instance)];
-  if (first < 0) return 0.0f;
+  if (first < 0) return -1;
   const bool mesh = scene_.instances()[std::size_t(hit.instance)].mesh != nullptr;
-  const int index =
-      mesh ? triangle_emitter_[std::size_t(first) + hit.primitive] : static_cast<int>(first);
+  return mesh ? triangle_emitter_[std::size_t(first) + hit.primitive] : static_cast<int>(first);
+}
+
+bool Lights::light_traced(const SurfacePoint& hit) const {
+  if (!leaves_caustics_) return false;
+  const int index = emitter_of(hit);
+  return index >= 0 && emitters_[std::size_t(index)].light_traced;
+}
+
+void Lights::leave_caustics_to_light_paths() {
+  leaves_caustics_ = true;
+  for (Emitter& e : emitters_) {
+    if (e.kind == EmitterKind::point || e.kind == EmitterKind::spot) {
+      e.light_traced = true;
+      continue;
+    }
+    const bool simple = !e.two_sided && !e.varying && e.kind != EmitterKind::ellipsoid;
+    const float size =
+        e.kind == EmitterKind::sphere ? e.radius : std::max(e.edge_u.length(), e.edge_v.length());
+    e.light_traced = simple && size < max_light_traced_size * scene_.radius();
+  }
+}
+
+float Lights::pdf(const V3f& p, const V3f& normal, const SurfacePoint& hit) const {
+  const int index = emitter_of(hit);
   if (index < 0) return 0.0f;
   float choice = tree_.probability(p, normal, index);
   if (!directional_.empty() || !environment_.black()) choice *= shares(p, normal).tree;

@@ -25,8 +25,19 @@ struct Emitter {
   float radius = 0.0f;                       // sphere
   float cos_inner = 1.0f, cos_outer = 0.0f;  // spot
   float error = 0.0f;                        // how far shadow rays must end before its surface
+  bool light_traced = false;                 // caustics from here are left to light paths
   Color emission{0.0f};                      // mean radiance, cd·m⁻²; punctual: intensity, cd
 };
+
+// A light so far away that its rays are parallel.
+struct DirectionalLight {
+  V3f direction;      // unit, toward the light
+  Color illuminance;  // on a facing surface, lx
+};
+
+// The ramp between a spot's cones, [0, 1]; direction: unit, away from the light
+// (KHR_lights_punctual).
+float spot_falloff(const Emitter& spot, const V3f& direction);
 
 // One way in which light may reach the receiving point, unoccluded.
 struct LightSample {
@@ -34,8 +45,9 @@ struct LightSample {
   V3f target;     // end of the shadow ray, traced space; infinite lights: a direction to far away
   float distance = 0.0f;  // scene units; inf for infinite lights
   Color radiance;  // cd·m⁻² from that direction; delta lights: illuminance, lx, on a facing surface
-  float pdf = 0.0f;    // sr⁻¹, including the choice of the light; delta lights: the choice alone
-  bool delta = false;  // no scattered ray can find this light
+  float pdf = 0.0f;  // sr⁻¹, including the choice of the light; delta lights: the choice alone
+  bool light_traced = false;  // its caustics are left to light paths
+  bool delta = false;         // no scattered ray can find this light
 };
 
 class Lights {
@@ -59,12 +71,15 @@ class Lights {
 
   const EnvironmentLight& environment() const { return environment_; }
   const std::vector<Emitter>& emitters() const { return emitters_; }
+  const std::vector<DirectionalLight>& directional() const { return directional_; }
+
+  // Leaves the caustics of punctual and small lights to light paths (light_tracer.h).
+  void leave_caustics_to_light_paths();
+  bool leaves_caustics() const { return leaves_caustics_; }
+  // Whether the emissive surface hit is one of those.
+  bool light_traced(const SurfacePoint& hit) const;
 
  private:
-  struct Directional {
-    V3f direction;  // unit, toward the light
-    Color illuminance;
-  };
   // Probabilities of drawing from the tree, the environment, and each directional light.
   struct Shares {
     float tree = 0.0f, environment = 0.0f, directional_scale = 0.0f;
@@ -76,21 +91,23 @@ class Lights {
   void add_light(const Light& light);
   void add(const Emitter& emitter, const LightBounds& bounds);
   Shares shares(const V3f& p, const V3f& normal) const;
-  float directional_weight(const Directional& light, const V3f& normal) const;
+  float directional_weight(const DirectionalLight& light, const V3f& normal) const;
   bool sample_emitter(const Emitter& emitter, const V3f& p, const V2f& u,
                       LightSample& sample) const;
+  int emitter_of(const SurfacePoint& hit) const;
   float emitter_pdf(const Emitter& emitter, const V3f& p, const SurfacePoint& hit) const;
 
   const TracedScene& scene_;
   EnvironmentLight environment_;
   std::vector<Emitter> emitters_;
   std::vector<LightBounds> bounds_;  // emptied after the tree is built
-  std::vector<Directional> directional_;
+  std::vector<DirectionalLight> directional_;
   LightTree tree_;
   std::vector<std::int64_t>
       first_triangle_;  // by instance: offset into triangle_emitter_; sphere: emitter; -1: none
   std::vector<int> triangle_emitter_;  // emitter of each triangle of emissive meshes; -1: none
   bool has_delta_ = false;
+  bool leaves_caustics_ = false;
 };
 
 }  // namespace lumivec

@@ -42,6 +42,12 @@ float power_heuristic(float taken, float other) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
+// Paths E D … whose last D is followed by a bending S event: light_tracer.h brings those that end
+// at certain lights.
+bool is_left_to_light_paths(Term term, bool bent) {
+  return bent && term != Term::emitted && term != Term::specular;
+}
+
 struct Lane {
   bool active = false;
   bool camera_ray = false;
@@ -58,6 +64,7 @@ struct Lane {
       1.0f;  // product of squared ratios of indices: what throughput owes to refraction alone
   Term term = Term::emitted;
   MediumStack media;
+  bool bent = false;  // since the last D event: an S event other than straight through a thin wall
 
   // How light sampling at the last vertex could have found what this ray finds.
   bool light_sampled = false;
@@ -306,6 +313,7 @@ class PathStream {
   }
 
   void add_emission(Lane& lane, const SurfacePoint& point, const Color& emission) {
+    if (is_left_to_light_paths(lane.term, lane.bent) && t_.lights_.light_traced(point)) return;
     float weight = 1.0f;
     if (lane.light_sampled) {
       weight =
@@ -344,6 +352,8 @@ class PathStream {
       arriving *= volume_transmittance(*medium, light.distance);
     lane.shadow_light[0] = arriving * f.non_specular * weight_d;
     lane.shadow_light[1] = arriving * f.specular * weight_s;
+    if (light.light_traced && is_left_to_light_paths(lane.term, true))
+      lane.shadow_light[1] = Color(0.0f);
     lane.shadow_term[0] = after_event(lane.term, LobeKind::non_specular);
     lane.shadow_term[1] = after_event(lane.term, LobeKind::specular);
     const std::uint32_t found =
@@ -366,6 +376,11 @@ class PathStream {
     const Term next = after_event(lane.term, s.kind);
     if ((reachable_terms(next) & t_.settings_.terms) == 0) return;
     lane.term = next;
+    if (s.kind == LobeKind::non_specular) {
+      lane.bent = false;
+    } else if (!straight_through) {
+      lane.bent = true;
+    }
     ++lane.depth;
     // Shadow rays pass thin walls too: light sampling at the last vertex competes with this path
     // still, weighted by the density there, as it is itself.

@@ -2,9 +2,10 @@
 // importance sampling, every contribution filed under the term that the path's events give it
 // (partition.h).
 //
-// Paths run in eight lanes (the packet width that AVX2 and AVX-512 machines both trace natively): each round traces one Embree packet of scattered rays and one of
-// shadow rays, and shades the hits one by one; a lane whose path ends takes up the next one, so
-// that packets stay full. Source: Veach 1997 (multiple importance sampling, Russian roulette).
+// Paths run in eight lanes (the packet width that AVX2 and AVX-512 machines both trace natively):
+// each round traces one Embree packet of scattered rays and one of shadow rays, and shades the hits
+// one by one; a lane whose path ends takes up the next one, so that packets stay full. Source:
+// Veach 1997 (multiple importance sampling, Russian roulette).
 #pragma once
 
 #include <array>
@@ -48,10 +49,6 @@ class PathTracer {
   void render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t sample_count,
                    std::vector<PixelSums>& sums, RenderStatistics& statistics) const;
 
-  // Eye paths leave out what a light tracer adds: light from lights that it starts at, over E D … D
-  // S+ L.
-  void leave_caustics_to_light_tracer(bool leave) { caustics_by_light_tracer_ = leave; }
-
  private:
   friend class PathStream;
 
@@ -60,7 +57,6 @@ class PathTracer {
   const CameraView& camera_;
   RenderSettings settings_;
   PixelFilterSampler filter_;
-  bool caustics_by_light_tracer_ = false;
 };
 
 }  // namespace lumivec

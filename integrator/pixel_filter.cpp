@@ -50,7 +50,10 @@ double weight(PixelFilter filter, double x) {
 
 }  // namespace
 
-PixelFilterSampler::PixelFilterSampler(PixelFilter filter) : box_(filter == PixelFilter::box) {
+PixelFilterSampler::PixelFilterSampler(PixelFilter filter)
+    : box_(filter == PixelFilter::box),
+      filter_(filter),
+      radius_(static_cast<float>(radius_of(filter))) {
   if (box_) return;
   constexpr int steps = 4096;
   const double radius = radius_of(filter);
@@ -59,6 +62,7 @@ PixelFilterSampler::PixelFilterSampler(PixelFilter filter) : box_(filter == Pixe
     const double x = radius * (2.0 * (i + 0.5) / steps - 1.0);
     cdf[std::size_t(i) + 1] = cdf[std::size_t(i)] + std::max(weight(filter, x), 0.0);
   }
+  scale_ = static_cast<float>(steps / (2.0 * radius * cdf.back()));
   for (int i = 0; i <= table_size; ++i) {
     const double target = cdf.back() * i / table_size;
     const auto above = std::lower_bound(cdf.begin() + 1, cdf.end() - 1, target);
@@ -67,6 +71,11 @@ PixelFilterSampler::PixelFilterSampler(PixelFilter filter) : box_(filter == Pixe
     const double cell = static_cast<double>(above - cdf.begin()) - 1.0 + fraction;
     inverse_cdf_[std::size_t(i)] = static_cast<float>(radius * (2.0 * cell / steps - 1.0));
   }
+}
+
+float PixelFilterSampler::density(float x) const {
+  return std::abs(x) < radius_ ? scale_ * static_cast<float>(std::max(weight(filter_, x), 0.0))
+                               : 0.0f;
 }
 
 float PixelFilterSampler::offset(float u) const {

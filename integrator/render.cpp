@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "integrator/denormals.h"
+#include "integrator/light_tracer.h"
 #include "integrator/path_tracer.h"
 
 namespace lumivec {
@@ -29,6 +30,10 @@ constexpr std::uint32_t max_pass_samples = 16;
 constexpr std::uint32_t first_checkpoint = 8;
 constexpr std::uint32_t max_samples = 1u << 22;
 constexpr int max_size = 65536;
+// Light paths are traced in batches of this many; batches are added up in order, so that threads do
+// not show.
+constexpr std::uint32_t light_batch = 4096;
+constexpr std::uint32_t batches_at_once = 64;
 constexpr double progress_interval = 0.1;  // seconds
 
 using Clock = std::chrono::steady_clock;
@@ -91,11 +96,29 @@ class Film {
     }
   }
 
+  // What a light path brought to the picture.
+  void add(const Splat& splat) {
+    if (light_.empty()) light_.resize(pixels_.size());
+    light_[splat.pixel].terms[static_cast<std::size_t>(splat.term)] += splat.value;
+  }
+  void add_light_paths(std::uint64_t count) { light_paths_ += count; }
+  std::uint64_t light_paths() const { return light_paths_; }
+
+  // Mean radiance of a term at pixel i: eye paths by the pixel's samples, light paths by their own
+  // number.
+  Color mean(std::size_t i, std::size_t term) const {
+    const PixelSums& p = pixels_[i];
+    Color result(0.0f);
+    if (p.samples > 0) result += p.terms[term] * (1.0f / static_cast<float>(p.samples));
+    if (!light_.empty() && light_paths_ > 0)
+      result += light_[i].terms[term] * static_cast<float>(1.0 / static_cast<double>(light_paths_));
+    return result;
+  }
+
   Color beauty(std::size_t i) const {
     Color sum(0.0f);
-    for (const Color& term : pixels_[i].terms) sum += term;
-    return pixels_[i].samples > 0 ? sum * (1.0f / static_cast<float>(pixels_[i].samples))
-                                  : Color(0.0f);
+    for (std::size_t term = 0; term < term_count; ++term) sum += mean(i, term);
+    return sum;
   }
 
   std::size_t size() const { return pixels_.size(); }
@@ -106,17 +129,17 @@ class Film {
     result.width = width_;
     result.height = height_;
     const std::size_t n = pixels_.size();
-    for (std::vector<Color>& term : result.terms) term.resize(n);
-    result.albedo.resize(n);
-    result.normal.resize(n);
-    result.position.resize(n);
+    for (std::vector<Color>& term : result.terms) term.resize(n, Color(0.0f));
+    result.albedo.resize(n, Color(0.0f));
+    result.normal.resize(n, V3f(0.0f));
+    result.position.resize(n, V3f(0.0f));
     result.depth.resize(n);
     result.object.resize(n);
     result.samples.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
       const PixelSums& p = pixels_[i];
       const float scale = p.samples > 0 ? 1.0f / static_cast<float>(p.samples) : 0.0f;
-      for (std::size_t t = 0; t < term_count; ++t) result.terms[t][i] = p.terms[t] * scale;
+      for (std::size_t t = 0; t < term_count; ++t) result.terms[t][i] = mean(i, t);
       result.albedo[i] = p.albedo * scale;
       result.normal[i] = p.normal * scale;
       result.position[i] = p.object >= 0 ? V3f(V3d(p.position) + origin) : V3f(0.0f);
@@ -130,6 +153,12 @@ class Film {
  private:
   int width_, height_, columns_, rows_;
   std::vector<PixelSums> pixels_;
+  struct LightSums {
+    std::array<Color, term_count> terms;
+    LightSums() { terms.fill(Color(0.0f)); }
+  };
+  std::vector<LightSums> light_;  // from light paths; empty until the first arrives
+  std::uint64_t light_paths_ = 0;
 };
 
 // Estimates the error from what the second half of the samples changed. The halves are stratified
@@ -180,15 +209,18 @@ void add_counts(const RenderStatistics& from, RenderStatistics& to) {
   to.rays_scatter += from.rays_scatter;
   to.rays_shadow += from.rays_shadow;
   to.samples += from.samples;
+  to.light_paths += from.light_paths;
   for (std::size_t i = 0; i < term_count; ++i) to.dropped[i] += from.dropped[i];
 }
 
 // One render from the first pass to the last.
 class StillRender {
  public:
-  StillRender(const PathTracer& tracer, const RenderSettings& settings,
-              RenderStatistics& statistics, const ProgressCallback& progress)
+  StillRender(const PathTracer& tracer, const LightTracer& light_tracer,
+              const RenderSettings& settings, RenderStatistics& statistics,
+              const ProgressCallback& progress)
       : tracer_(tracer),
+        light_tracer_(light_tracer),
         settings_(settings),
         statistics_(statistics),
         progress_(progress),
@@ -207,6 +239,8 @@ class StillRender {
       const std::uint32_t pass =
           std::min({std::max(done, 1u), max_pass_samples, target_ - done, checkpoint - done});
       render_pass(done, pass);
+      if (stop_) break;
+      if (light_tracer_.active()) render_light_pass(pass);
       if (stop_) break;
       done += pass;
       if (done == checkpoint) reach_checkpoint(done);
@@ -263,6 +297,41 @@ class StillRender {
         tbb::simple_partitioner());
   }
 
+  // As many light paths as the pass had eye paths. A pass that is stopped leaves out the batches it
+  // did not begin.
+  void render_light_pass(std::uint32_t count) {
+    const std::uint64_t end = film_.light_paths() + std::uint64_t(count) * film_.size();
+    std::vector<std::vector<Splat>> splats(batches_at_once);
+    while (film_.light_paths() < end && !stop_) {
+      const std::uint64_t begin = film_.light_paths();
+      const std::uint64_t paths =
+          std::min(end - begin, std::uint64_t{light_batch} * batches_at_once);
+      const auto batches = static_cast<std::uint32_t>((paths + light_batch - 1) / light_batch);
+      tbb::parallel_for(
+          tbb::blocked_range<std::uint32_t>(0, batches, 1),
+          [&](const tbb::blocked_range<std::uint32_t>& range) {
+            const FlushDenormals flush;
+            for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+              const std::uint64_t first = begin + std::uint64_t{i} * light_batch;
+              const auto size = static_cast<std::uint32_t>(
+                  std::min(std::uint64_t{light_batch}, begin + paths - first));
+              RenderStatistics counts;
+              splats[i].clear();
+              light_tracer_.trace(first, size, splats[i], counts);
+              const std::lock_guard lock(mutex_);
+              add_counts(counts, statistics_);
+            }
+          },
+          tbb::simple_partitioner());
+      for (std::uint32_t i = 0; i < batches; ++i) {
+        for (const Splat& splat : splats[i]) film_.add(splat);
+      }
+      film_.add_light_paths(paths);
+      const std::lock_guard lock(mutex_);
+      note_progress(1);
+    }
+  }
+
   // Called with the mutex held.
   void note_progress(std::uint32_t first_sample) {
     const double seconds = seconds_since(start_);
@@ -288,6 +357,7 @@ class StillRender {
   }
 
   const PathTracer& tracer_;
+  const LightTracer& light_tracer_;
   const RenderSettings& settings_;
   RenderStatistics& statistics_;
   const ProgressCallback& progress_;
@@ -314,11 +384,15 @@ Framebuffer render(const Scene& scene, const Camera& camera, const RenderSetting
   arena.execute([&] {
     const Clock::time_point start = Clock::now();
     const TracedScene traced(scene, threads);
-    const Lights lights(traced);
+    Lights lights(traced);
     const CameraView view(camera, traced, settings.width, settings.height);
+    const std::vector<BoundingSphere> casters =
+        caustic_casters(traced, settings.specular_roughness);
+    if (!casters.empty()) lights.leave_caustics_to_light_paths();
+    const LightTracer light_tracer(traced, lights, view, settings, casters);
     const PathTracer tracer(traced, lights, view, settings);
     statistics.seconds_prepare = seconds_since(start);
-    StillRender still(tracer, settings, statistics, progress);
+    StillRender still(tracer, light_tracer, settings, statistics, progress);
     still.run();
     result = still.film().resolve(traced.origin());
   });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "integrator/texture.h"
@@ -230,17 +231,10 @@ V3f TracedScene::mapped_normal(const SurfacePoint& point, const TextureMap& map,
   return mapped * side;
 }
 
-SurfaceParameters TracedScene::parameters(const SurfacePoint& point, float outside_ior) const {
+// What does not depend on the side or direction that the surface is seen from.
+SurfaceParameters TracedScene::appearance(const SurfacePoint& point) const {
   const Material& m = *point.material;
   SurfaceParameters p;
-  p.normal = point.normal;
-  p.coat_normal = point.normal;
-  if (m.normal_map.image >= 0)
-    p.normal = mapped_normal(point, m.normal_map, m.normal_scale, point.normal);
-  if (m.clearcoat_normal_map.image >= 0) {
-    p.coat_normal =
-        mapped_normal(point, m.clearcoat_normal_map, m.clearcoat_normal_scale, point.normal);
-  }
   p.base_color = unit_range(m.base_color * rgb(texture(*this, point, m.base_color_map)) *
                             rgb(vertex_color(point)));
   const V4f metallic_roughness = texture(*this, point, m.metallic_roughness_map);
@@ -254,6 +248,53 @@ SurfaceParameters TracedScene::parameters(const SurfacePoint& point, float outsi
   p.clearcoat = std::clamp(m.clearcoat * texture(*this, point, m.clearcoat_map).x, 0.0f, 1.0f);
   p.clearcoat_roughness = std::clamp(
       m.clearcoat_roughness * texture(*this, point, m.clearcoat_roughness_map).y, 0.0f, 1.0f);
+  return p;
+}
+
+// Materials without textures look the same everywhere: their appearance is looked up once.
+void TracedScene::prepare_constants() {
+  const auto varies = [](const Material& m) {
+    for (const TextureMap* map :
+         {&m.base_color_map, &m.metallic_roughness_map, &m.specular_map, &m.specular_color_map,
+          &m.transmission_map, &m.clearcoat_map, &m.clearcoat_roughness_map, &m.normal_map,
+          &m.clearcoat_normal_map}) {
+      if (map->image >= 0) return true;
+    }
+    return false;
+  };
+  std::map<const Material*, int> index_of;
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    TracedInstance& instance = instances_[i];
+    const bool colored =
+        instance.mesh && !instance.mesh->colors.empty() && instance.material->vertex_colors;
+    if (varies(*instance.material) || colored) continue;
+    const auto [entry, added] =
+        index_of.try_emplace(instance.material, static_cast<int>(constants_.size()));
+    if (added) {
+      SurfacePoint point;
+      point.instance = static_cast<int>(i);
+      point.material = instance.material;
+      constants_.push_back(appearance(point));
+    }
+    instance.constant = entry->second;
+  }
+}
+
+SurfaceParameters TracedScene::parameters(const SurfacePoint& point, float outside_ior) const {
+  const Material& m = *point.material;
+  const int constant = instances_[std::size_t(point.instance)].constant;
+  SurfaceParameters p = constant >= 0 ? constants_[std::size_t(constant)] : appearance(point);
+  p.normal = point.normal;
+  p.coat_normal = point.normal;
+  if (constant < 0) {
+    if (m.normal_map.image >= 0) {
+      p.normal = mapped_normal(point, m.normal_map, m.normal_scale, point.normal);
+    }
+    if (m.clearcoat_normal_map.image >= 0) {
+      p.coat_normal =
+          mapped_normal(point, m.clearcoat_normal_map, m.clearcoat_normal_scale, point.normal);
+    }
+  }
   const bool from_inside = !point.front && !m.thin_walled && m.transmission > 0.0f;
   // Shadow rays pass thin walls without knowing their surroundings: nothing else may either.
   const float around = m.thin_walled && m.transmission > 0.0f ? 1.0f : outside_ior;

@@ -113,6 +113,7 @@ TracedScene::TracedScene(const Scene& scene, int threads) : scene_(scene) {
     }
   }
   finish_spheres();
+  prepare_constants();
   rtcCommitScene(top_.get());
   rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);
   if (!failure.empty()) {

@@ -44,6 +44,7 @@ struct TracedInstance {
   const Mesh* mesh = nullptr;     // null: sphere
   const V3f* vertices = nullptr;  // of the mesh; traced space if flattened, else object space
   const Material* material = nullptr;
+  int constant = -1;  // index into the parameters of materials without textures; -1: look them up
   bool flattened = false;
   bool mirrored = false;
   bool flat_shaded = true;  // vertex normals are missing or equal to the geometric ones
@@ -119,6 +120,8 @@ class TracedScene {
     int instance = -1;  // mesh, instance
   };
 
+  SurfaceParameters appearance(const SurfacePoint& point) const;
+  void prepare_constants();
   void place();
   void add_mesh(int instance);
   void add_sphere(int instance);
@@ -145,6 +148,7 @@ class TracedScene {
   std::vector<Transforms> transforms_;
   std::vector<TracedSphere> spheres_;
   std::vector<int> sphere_instances_;             // TracedSphere to Scene::instances
+  std::vector<SurfaceParameters> constants_;      // by material, for those that do not vary
   std::vector<Slot> slots_;                       // by geometry id of the top level
   std::vector<embree::SceneHandle> base_meshes_;  // by mesh, where instanced
   std::vector<const V3f*> base_vertices_;         // likewise

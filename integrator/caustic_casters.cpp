@@ -1,0 +1,107 @@
+// Which parts of a scene can throw caustics: bounds of everything with a specular lobe.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrator/light_tracer.h"
+
+namespace lumivec {
+namespace {
+
+// Aiming costs time in proportion to the casters; more of them than this are joined with their
+// neighbours.
+constexpr std::size_t max_casters = 32;
+
+// Whether a material has, or by a texture may have, a lobe that counts as specular.
+bool may_be_specular(const Material& m, float specular_roughness) {
+  if (m.unlit) return false;
+  const bool smooth = m.roughness < specular_roughness || m.metallic_roughness_map.image >= 0;
+  const bool reflects = m.specular > 0.0f || m.metallic > 0.0f || m.transmission > 0.0f;
+  const bool smooth_coat = m.clearcoat > 0.0f && (m.clearcoat_roughness < specular_roughness ||
+                                                  m.clearcoat_roughness_map.image >= 0);
+  return (smooth && reflects) || smooth_coat;
+}
+
+BoundingSphere instance_bounds(const TracedScene& scene, int index) {
+  const TracedInstance& instance = scene.instances()[std::size_t(index)];
+  if (instance.sphere >= 0) {
+    const TracedSphere& s = scene.spheres()[std::size_t(instance.sphere)];
+    return {s.center, s.radius};
+  }
+  const M44d m = scene.object_to_traced(index);
+  V3d low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+  const auto extend = [&](const V3d& p) {
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  };
+  if (instance.mesh) {
+    for (const V3f& p : instance.mesh->positions) extend(V3d(p) * m);
+  } else {
+    const Instance& placed = scene.scene().instances[std::size_t(index)];
+    const double r = scene.scene().spheres[std::size_t(placed.sphere)].radius;
+    for (int corner = 0; corner < 8; ++corner) {
+      extend(V3d((corner & 1) ? r : -r, (corner & 2) ? r : -r, (corner & 4) ? r : -r) * m);
+    }
+  }
+  if (!(low.x <= high.x)) return {};
+  return {V3f((low + high) * 0.5), static_cast<float>((high - low).length() * 0.5)};
+}
+
+BoundingSphere join(const BoundingSphere* begin, const BoundingSphere* end) {
+  V3f low(std::numeric_limits<float>::infinity()), high(-std::numeric_limits<float>::infinity());
+  for (const BoundingSphere* s = begin; s != end; ++s) {
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], s->center[i] - s->radius);
+      high[i] = std::max(high[i], s->center[i] + s->radius);
+    }
+  }
+  BoundingSphere all{(low + high) * 0.5f, 0.0f};
+  for (const BoundingSphere* s = begin; s != end; ++s) {
+    all.radius = std::max(all.radius, (s->center - all.center).length() + s->radius);
+  }
+  return all;
+}
+
+// Splits a run of spheres at the median of the longest axis until each part is one of `parts`
+// groups.
+void group(BoundingSphere* begin, BoundingSphere* end, std::size_t parts,
+           std::vector<BoundingSphere>& out) {
+  if (parts <= 1 || end - begin <= 1) {
+    out.push_back(join(begin, end));
+    return;
+  }
+  V3f low(std::numeric_limits<float>::infinity()), high(-std::numeric_limits<float>::infinity());
+  for (const BoundingSphere* s = begin; s != end; ++s) {
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], s->center[i]);
+      high[i] = std::max(high[i], s->center[i]);
+    }
+  }
+  const V3f size = high - low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  BoundingSphere* middle = begin + (end - begin) / 2;
+  std::nth_element(begin, middle, end, [axis](const BoundingSphere& a, const BoundingSphere& b) {
+    return a.center[axis] < b.center[axis];
+  });
+  group(begin, middle, parts / 2, out);
+  group(middle, end, parts - parts / 2, out);
+}
+
+}  // namespace
+
+std::vector<BoundingSphere> caustic_casters(const TracedScene& scene, float specular_roughness) {
+  std::vector<BoundingSphere> all;
+  for (std::size_t i = 0; i < scene.instances().size(); ++i) {
+    if (!may_be_specular(*scene.instances()[i].material, specular_roughness)) continue;
+    const BoundingSphere bounds = instance_bounds(scene, static_cast<int>(i));
+    if (bounds.radius > 0.0f) all.push_back(bounds);
+  }
+  if (all.size() <= max_casters) return all;
+  std::vector<BoundingSphere> joined;
+  group(all.data(), all.data() + all.size(), max_casters, joined);
+  return joined;
+}
+
+}  // namespace lumivec

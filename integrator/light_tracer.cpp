@@ -1,0 +1,341 @@
+#include "integrator/light_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrator/frame.h"
+#include "integrator/media.h"
+#include "integrator/partition.h"
+#include "integrator/sampling.h"
+#include "integrator/sobol.h"
+#include "integrator/solid_angle_sampling.h"
+
+namespace lumivec {
+namespace {
+
+constexpr int first_roulette_depth = 2;
+constexpr float min_survival = 0.05f;
+// Cones around casters are widened by this, so that rounding leaves no rim of the caster in the
+// dark.
+constexpr float caster_margin = 1.001f;
+// Shadow rays to the eye end this much before it.
+constexpr float eye_ray_end = 1.0f - 4e-7f;
+
+float max_component(const Color& c) {
+  return std::max({c.x, c.y, c.z});
+}
+float mean(const Color& c) {
+  return (c.x + c.y + c.z) * (1.0f / 3.0f);
+}
+
+V3f uniform_direction(const V2f& u) {
+  const float z = 1.0f - 2.0f * u.x, r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+  return {r * std::cos(2.0f * pi * u.y), r * std::sin(2.0f * pi * u.y), z};
+}
+
+// Light paths and eye paths see shading normals from opposite ends; this makes them agree (Veach
+// 1997, eq. 5.19). from: toward where the light comes from. to: where it goes.
+float shading_correction(const V3f& from, const V3f& to, const V3f& shading, const V3f& geometric) {
+  const float numerator = std::abs(from.dot(shading) * to.dot(geometric));
+  const float denominator = std::abs(from.dot(geometric) * to.dot(shading));
+  return denominator > 0.0f ? numerator / denominator : 0.0f;
+}
+
+}  // namespace
+
+LightTracer::LightTracer(const TracedScene& scene, const Lights& lights, const CameraView& camera,
+                         const RenderSettings& settings, const std::vector<BoundingSphere>& casters)
+    : scene_(scene),
+      lights_(lights),
+      camera_(camera),
+      settings_(settings),
+      casters_(casters),
+      filter_(settings.filter) {
+  if (casters.empty() || (settings.terms & reachable_terms(Term::caustic)) == 0) return;
+  for (std::size_t i = 0; i < lights.emitters().size(); ++i) {
+    const Emitter& e = lights.emitters()[i];
+    if (!e.light_traced) continue;
+    Source source;
+    source.emitter = static_cast<int>(i);
+    float intensity = mean(e.emission);
+    if (e.kind == EmitterKind::sphere) intensity *= pi * e.radius * e.radius;
+    if (e.kind == EmitterKind::rectangle) intensity *= e.edge_u.cross(e.edge_v).length();
+    if (e.kind == EmitterKind::triangle) intensity *= 0.5f * e.edge_u.cross(e.edge_v).length();
+    add_source(source, intensity, e.origin);
+  }
+  for (std::size_t i = 0; i < lights.directional().size(); ++i) {
+    Source source;
+    source.directional = static_cast<int>(i);
+    float sum = 0.0f;
+    for (const BoundingSphere& c : casters) source.aim.push_back(pi * c.radius * c.radius);
+    for (const float a : source.aim) sum += a;
+    for (float& a : source.aim) a /= sum;
+    source.probability = mean(lights.directional()[i].illuminance) * sum;
+    sources_.push_back(source);
+  }
+  float total = 0.0f;
+  for (const Source& s : sources_) total += s.probability;
+  float cumulative = 0.0f;
+  for (Source& s : sources_) {
+    s.probability /= total;
+    cumulative += s.probability;
+    s.cumulative = cumulative;
+  }
+}
+
+// Weighs the source and its casters by the flux that meets them.
+void LightTracer::add_source(Source source, float intensity, const V3f& position) {
+  float sum = 0.0f;
+  for (const BoundingSphere& c : casters_) {
+    const float d2 = (c.center - position).length2(), r2 = c.radius * c.radius;
+    const float solid_angle = d2 <= r2 ? 4.0f * pi : 2.0f * pi * (1.0f - std::sqrt(1.0f - r2 / d2));
+    // Far casters lose their solid angle to rounding; they keep their chance by the plain quotient.
+    const float weight = std::max(solid_angle, d2 > r2 ? pi * r2 / d2 : 0.0f);
+    source.aim.push_back(weight);
+    sum += weight;
+  }
+  if (!(sum > 0.0f) || !(intensity > 0.0f)) return;
+  for (float& a : source.aim) a /= sum;
+  source.probability = intensity * sum;
+  sources_.push_back(std::move(source));
+}
+
+// A direction toward one of the casters, and the density with which any of them would have led to
+// it.
+bool LightTracer::aim(const Source& source, const V3f& origin, float u_aim, const V2f& u,
+                      V3f& direction, float& pdf) const {
+  std::size_t chosen = 0;
+  while (chosen + 1 < source.aim.size() && u_aim >= source.aim[chosen])
+    u_aim -= source.aim[chosen++];
+  const auto cone_to = [&](const BoundingSphere& c, V3f& to_center, float& radius) {
+    to_center = c.center - origin;
+    radius = c.radius * caster_margin;
+    return to_center.length2() > radius * radius;
+  };
+  V3f to_center;
+  float radius, distance;
+  if (cone_to(casters_[chosen], to_center, radius)) {
+    direction = sample_sphere_cone(sphere_cone(to_center, radius), to_center, radius, u, distance);
+  } else {
+    direction = uniform_direction(u);
+  }
+  pdf = 0.0f;
+  for (std::size_t i = 0; i < casters_.size(); ++i) {
+    if (!cone_to(casters_[i], to_center, radius)) {
+      pdf += source.aim[i] / (4.0f * pi);
+      continue;
+    }
+    const SphereCone cone = sphere_cone(to_center, radius);
+    // 1 - cosθ between unit vectors as half their squared distance: exact for narrow cones.
+    if (i == chosen || 0.5f * (direction - cone.axis).length2() <= cone.one_minus_cos_max) {
+      pdf += source.aim[i] * cone.pdf;
+    }
+  }
+  return pdf > 0.0f && std::isfinite(pdf);
+}
+
+bool LightTracer::start_directional(const Source& source, float u_aim, const V2f& u,
+                                    Start& out) const {
+  const DirectionalLight& light = lights_.directional()[std::size_t(source.directional)];
+  std::size_t chosen = 0;
+  while (chosen + 1 < source.aim.size() && u_aim >= source.aim[chosen])
+    u_aim -= source.aim[chosen++];
+  const Frame frame = make_frame(light.direction);
+  const V2f disc = sample_disc(u) * (casters_[chosen].radius * caster_margin);
+  const V3f through = casters_[chosen].center + frame.t * disc.x + frame.b * disc.y;
+  float pdf = 0.0f;  // per unit area across the beam
+  for (std::size_t i = 0; i < casters_.size(); ++i) {
+    const V3f offset = through - casters_[i].center;
+    const float radius = casters_[i].radius * caster_margin;
+    const float across2 = (offset - light.direction * offset.dot(light.direction)).length2();
+    if (i == chosen || across2 <= radius * radius) pdf += source.aim[i] / (pi * radius * radius);
+  }
+  // Start outside of everything; the scene lies within radius() of traced space's origin.
+  const float back = scene_.radius() * 1.01f - through.dot(light.direction);
+  out.origin = through + light.direction * back;
+  out.direction = -light.direction;
+  out.flux = light.illuminance * (1.0f / (pdf * source.probability));
+  return true;
+}
+
+bool LightTracer::start(float u_source, const V2f& u_point, float u_aim, const V2f& u_direction,
+                        Start& out) const {
+  const auto found = std::lower_bound(sources_.begin(), sources_.end(), u_source,
+                                      [](const Source& s, float u) { return s.cumulative <= u; });
+  const Source& source = found == sources_.end() ? sources_.back() : *found;
+  if (source.directional >= 0) return start_directional(source, u_aim, u_direction, out);
+
+  const Emitter& e = lights_.emitters()[std::size_t(source.emitter)];
+  V3f normal(0.0f);
+  float area = 1.0f;
+  out.origin = e.origin;
+  switch (e.kind) {
+    case EmitterKind::sphere:
+      normal = uniform_direction(u_point);
+      area = 4.0f * pi * e.radius * e.radius;
+      out.origin = e.origin + normal * (e.radius + e.error);
+      break;
+    case EmitterKind::rectangle:
+    case EmitterKind::triangle: {
+      const V3f cross = e.edge_u.cross(e.edge_v);
+      const bool rectangle = e.kind == EmitterKind::rectangle;
+      const float root = std::sqrt(u_point.x);
+      const V2f at = rectangle ? u_point : V2f(root * (1.0f - u_point.y), root * u_point.y);
+      area = cross.length() * (rectangle ? 1.0f : 0.5f);
+      normal = cross.normalized();
+      out.origin = e.origin + e.edge_u * at.x + e.edge_v * at.y + normal * e.error;
+      break;
+    }
+    case EmitterKind::point:
+    case EmitterKind::spot:
+    case EmitterKind::ellipsoid:
+      break;
+  }
+  float pdf;
+  if (!aim(source, out.origin, u_aim, u_direction, out.direction, pdf)) return false;
+  out.flux = e.emission * (area / (pdf * source.probability));
+  if (e.kind == EmitterKind::spot) {
+    out.flux *= spot_falloff(e, out.direction);
+  } else if (e.kind != EmitterKind::point) {
+    out.flux *= std::max(0.0f, normal.dot(out.direction));
+  }
+  return max_component(out.flux) > 0.0f;
+}
+
+void LightTracer::trace(std::uint64_t first, std::uint32_t count, std::vector<Splat>& splats,
+                        RenderStatistics& statistics) const {
+  for (std::uint32_t i = 0; i < count; ++i) trace_path(first + i, splats, statistics);
+  statistics.light_paths += count;
+}
+
+void LightTracer::trace_path(std::uint64_t path, std::vector<Splat>& splats,
+                             RenderStatistics& statistics) const {
+  // Light paths share one sequence per 2³² of them; the last block number keeps them apart from the
+  // pixels' sequences.
+  constexpr std::uint32_t light_path_stream = 0x11647u;
+  const std::uint32_t index = static_cast<std::uint32_t>(path);
+  std::uint32_t seed = hash_combine(static_cast<std::uint32_t>(settings_.seed),
+                                    static_cast<std::uint32_t>(settings_.seed >> 32));
+  seed =
+      hash_combine(hash_combine(seed, static_cast<std::uint32_t>(path >> 32)), light_path_stream);
+  std::uint32_t block = 0;
+  const auto random = [&] { return sobol_point(index, hash_combine(seed, block++)); };
+
+  const std::array<float, 4> u0 = random(), u1 = random();
+  Start begin;
+  if (!start(u0[2], V2f(u0[0], u0[1]), u0[3], V2f(u1[0], u1[1]), begin)) return;
+
+  V3f origin = begin.origin, direction = begin.direction;
+  Color weight(1.0f);
+  MediumStack media;
+  bool bent = false;      // an S event other than straight passage through a thin wall has been
+  bool diffused = false;  // a D event has been
+  for (int depth = 0; settings_.max_depth == 0 || depth < settings_.max_depth; ++depth) {
+    const std::uint32_t ray_seed = hash_combine(hash_combine(seed, index), block);
+    RTCRayHit ray;
+    ray.ray.org_x = origin.x;
+    ray.ray.org_y = origin.y;
+    ray.ray.org_z = origin.z;
+    ray.ray.dir_x = direction.x;
+    ray.ray.dir_y = direction.y;
+    ray.ray.dir_z = direction.z;
+    ray.ray.tnear = 0.0f;
+    ray.ray.tfar = std::numeric_limits<float>::infinity();
+    ray.ray.time = 0.0f;
+    ray.ray.mask = ~0u;
+    ray.ray.id = 0;
+    ray.ray.flags = 0;
+    ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    TraceQuery query = scene_.query();
+    query.seeds = &ray_seed;
+    embree::intersect1(scene_.handle(), query.context, ray);
+    ++statistics.rays_scatter;
+    const RayHit hit = {ray.ray.tfar,   ray.hit.u,      ray.hit.v,
+                        ray.hit.geomID, ray.hit.primID, ray.hit.instID[0]};
+    if (!hit.valid()) return;
+    const SurfacePoint point = scene_.surface(hit, origin, direction);
+    const Material& material = *point.material;
+    if (material.unlit) return;
+    if (const Material* medium = media.top()) weight *= volume_transmittance(*medium, hit.distance);
+    const SurfaceParameters parameters =
+        scene_.parameters(point, media.outside_ior(material, point.front));
+    const V3f wo = -direction;
+    const Bsdf bsdf(parameters, point.geometric_normal, wo, scene_.albedo_tables(),
+                    settings_.specular_roughness, Transport::importance);
+    if (bent && bsdf.has(LobeKind::non_specular)) {
+      const Term term = diffused ? Term::indirect : Term::caustic;
+      connect(point, parameters.normal, bsdf, wo, begin.flux * weight, media.top(), term, ray_seed,
+              splats, statistics);
+    }
+    const std::array<float, 4> u = random();
+    BsdfSample s;
+    if (!bsdf.sample(u[0], V2f(u[1], u[2]), s)) return;
+    if (s.kind == LobeKind::non_specular) {
+      if (!bent || (settings_.terms & term_bit(Term::indirect)) == 0) return;
+      diffused = true;
+    } else if (!(s.delta && s.transmitted && parameters.thin_walled)) {
+      bent = true;
+    }
+    weight *= s.weight;
+    if (!s.delta) weight *= shading_correction(wo, s.wi, parameters.normal, point.geometric_normal);
+    if (s.transmitted && !parameters.thin_walled) media.cross(material, point.front);
+    if (depth >= first_roulette_depth) {
+      const float survival = std::clamp(max_component(weight), min_survival, 1.0f);
+      if (u[3] >= survival) return;
+      weight *= 1.0f / survival;
+    }
+    if (!(max_component(weight) > 0.0f)) return;
+    origin = offset_origin(point, s.wi);
+    direction = s.wi;
+  }
+}
+
+// Adds what a vertex sends toward the eye, if the eye sees it.
+void LightTracer::connect(const SurfacePoint& point, const V3f& shading_normal, const Bsdf& bsdf,
+                          const V3f& wo, const Color& flux, const Material* medium, Term term,
+                          std::uint32_t seed, std::vector<Splat>& splats,
+                          RenderStatistics& statistics) const {
+  if ((settings_.terms & term_bit(term)) == 0) return;
+  V2f pixel;
+  V3f to_eye;
+  float distance, importance;
+  if (!camera_.project(point.position, pixel, to_eye, distance, importance)) return;
+  const Color f = bsdf.eval(to_eye).non_specular;
+  if (f == Color(0.0f)) return;
+  Color value =
+      flux * f *
+      (importance * shading_correction(wo, to_eye, shading_normal, point.geometric_normal));
+  if (medium) value *= volume_transmittance(*medium, distance);
+  for (int c = 0; c < 3; ++c) {
+    if (std::isfinite(value[c])) continue;
+    ++statistics.dropped[static_cast<std::size_t>(term)];
+    return;
+  }
+  const V3f origin = offset_origin(point, to_eye);
+  RTCRay ray;
+  ray.org_x = origin.x;
+  ray.org_y = origin.y;
+  ray.org_z = origin.z;
+  ray.dir_x = to_eye.x;
+  ray.dir_y = to_eye.y;
+  ray.dir_z = to_eye.z;
+  ray.tnear = 0.0f;
+  ray.tfar = camera_.visible_distance(point.position, distance) * eye_ray_end;
+  ray.time = 0.0f;
+  ray.mask = ~0u;
+  ray.id = 0;
+  ray.flags = 0;
+  TraceQuery query = scene_.query();
+  query.seeds = &seed;
+  embree::occluded1(scene_.handle(), query.context, ray);
+  ++statistics.rays_shadow;
+  if (ray.tfar < 0.0f) return;
+  filter_.for_each_pixel(pixel, settings_.width, settings_.height, [&](int x, int y, float share) {
+    const auto index = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(settings_.width) +
+                       static_cast<std::uint32_t>(x);
+    splats.push_back({index, term, value * share});
+  });
+}
+
+}  // namespace lumivec

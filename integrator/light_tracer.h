@@ -1,0 +1,87 @@
+// Light paths for what eye paths find badly or never: light from punctual and small lights that
+// comes to a non-specular surface over specular ones, E D … D S+ L. Paths start at the light toward
+// specular geometry, and each non-specular vertex that they reach afterwards is connected to the
+// eye.
+//
+// The division of labour is exact: eye paths leave out just these paths (Lights::light_traced, and
+// after the last D an S event other than straight passage through a thin wall). What neither finds
+// is light from a punctual light over a specular surface that the eye sees only in another specular
+// surface, E S … D S+ L. Source: Veach 1997, sections 4 and 5 (particle tracing, shading normals).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "integrator/camera_view.h"
+#include "integrator/framebuffer.h"
+#include "integrator/lights.h"
+#include "integrator/pixel_filter.h"
+
+namespace lumivec {
+
+// A contribution to one pixel.
+struct Splat {
+  std::uint32_t pixel = 0;
+  Term term = Term::caustic;
+  Color value{0.0f};  // radiance, to be divided by the number of light paths
+};
+
+struct BoundingSphere {
+  V3f center{0.0f};  // traced space
+  float radius = 0.0f;
+};
+
+// Spheres around everything that may scatter light specularly; near ones are joined until there are
+// few.
+std::vector<BoundingSphere> caustic_casters(const TracedScene& scene, float specular_roughness);
+
+class LightTracer {
+ public:
+  // casters: from caustic_casters. All must outlive this.
+  LightTracer(const TracedScene& scene, const Lights& lights, const CameraView& camera,
+              const RenderSettings& settings, const std::vector<BoundingSphere>& casters);
+
+  // Whether there is anything to do: lights to start from, casters to aim at, and terms that ask
+  // for it.
+  bool active() const { return !sources_.empty(); }
+
+  // Traces light paths [first, first + count) and appends what they bring to splats. Depends on
+  // nothing else.
+  void trace(std::uint64_t first, std::uint32_t count, std::vector<Splat>& splats,
+             RenderStatistics& statistics) const;
+
+ private:
+  struct Source {
+    int emitter = -1;  // of Lights::emitters; -1: directional
+    int directional = -1;
+    float probability = 0.0f;
+    float cumulative = 0.0f;
+    std::vector<float> aim;  // probability of aiming at each caster
+  };
+  struct Start {
+    V3f origin, direction;
+    Color flux;  // radiance · cosine / density, or its analogue for punctual lights
+  };
+
+  void add_source(Source source, float intensity, const V3f& position);
+  bool start(float u_source, const V2f& u_point, float u_aim, const V2f& u_direction,
+             Start& start) const;
+  bool start_directional(const Source& source, float u_aim, const V2f& u, Start& start) const;
+  bool aim(const Source& source, const V3f& origin, float u_aim, const V2f& u, V3f& direction,
+           float& pdf) const;
+  void trace_path(std::uint64_t path, std::vector<Splat>& splats,
+                  RenderStatistics& statistics) const;
+  void connect(const SurfacePoint& point, const V3f& shading_normal, const Bsdf& bsdf,
+               const V3f& wo, const Color& flux, const Material* medium, Term term,
+               std::uint32_t seed, std::vector<Splat>& splats, RenderStatistics& statistics) const;
+
+  const TracedScene& scene_;
+  const Lights& lights_;
+  const CameraView& camera_;
+  const RenderSettings settings_;
+  const std::vector<BoundingSphere>& casters_;
+  PixelFilterSampler filter_;
+  std::vector<Source> sources_;
+};
+
+}  // namespace lumivec
