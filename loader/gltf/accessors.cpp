@@ -89,8 +89,8 @@ std::uint64_t component_size(ComponentType type) {
   return 0;
 }
 
-Accessors::Accessors(const Context& context, Document& document)
-    : context_(context), document_(document), buffers_(context, document) {}
+Accessors::Accessors(const Context& context, const Document& document, Buffers& buffers)
+    : context_(context), document_(document), buffers_(buffers) {}
 
 const Accessor& Accessors::operator[](int index) const {
   return document_.accessors[static_cast<std::size_t>(index)];

@@ -24,7 +24,7 @@ enum class Scale : std::uint8_t {
 
 class Accessors {
  public:
-  Accessors(const Context& context, Document& document);
+  Accessors(const Context& context, const Document& document, Buffers& buffers);
 
   const Accessor& operator[](int index) const;
   std::string where(int index) const;
@@ -59,8 +59,8 @@ class Accessors {
                    bool normalized);
 
   const Context& context_;
-  Document& document_;
-  Buffers buffers_;
+  const Document& document_;
+  Buffers& buffers_;
   std::vector<std::uint8_t> chunk_;
 };
 

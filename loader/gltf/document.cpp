@@ -129,8 +129,8 @@ void check_version(Context& context, const json& asset) {
   const auto needed_minor = minor_version(needed);
   if (!minor || !needed_minor || *needed_minor > *minor) {
     context.fail("/asset",
-                 "glTF version " + printable(version) + " with a minimum of " +
-                     printable(needed) + " is not supported",
+                 "glTF version " + printable(version) + " with a minimum of " + printable(needed) +
+                     " is not supported",
                  "convert the file to glTF 2.0");
   }
   if (*needed_minor > 0) {

@@ -55,14 +55,13 @@ void decode(Context& context, Task& task) {
   task.bytes = {};
 }
 
-std::vector<Task> open_used(Context& context, Document& document, Scene& scene) {
+std::vector<Task> open_used(Context& context, Document& document, Buffers& buffers, Scene& scene) {
   std::vector<bool> used(document.images.size());
   for (Material& material : scene.materials) {
     for_each_map(material, [&](const TextureMap& map) {
       if (map.image >= 0) used[static_cast<std::size_t>(map.image)] = true;
     });
   }
-  Buffers buffers(context, document);
   std::vector<Task> tasks;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i]) continue;
@@ -82,8 +81,8 @@ std::vector<Task> open_used(Context& context, Document& document, Scene& scene) 
 
 }  // namespace
 
-void load_images(Context& context, Document& document, Scene& scene) {
-  std::vector<Task> tasks = open_used(context, document, scene);
+void load_images(Context& context, Document& document, Buffers& buffers, Scene& scene) {
+  std::vector<Task> tasks = open_used(context, document, buffers, scene);
   tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
     if (tasks[i].problem.empty()) decode(context, tasks[i]);
   });

@@ -9,6 +9,6 @@ namespace lumivec::gltf {
 // Replaces the file's image indices in the scene's materials by indices into Scene::images, which
 // it fills. A picture that is missing or cannot be decoded is a warning, and its maps are taken
 // off.
-void load_images(Context& context, Document& document, Scene& scene);
+void load_images(Context& context, Document& document, Buffers& buffers, Scene& scene);
 
 }  // namespace lumivec::gltf

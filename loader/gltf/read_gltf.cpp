@@ -65,13 +65,11 @@ Scene read_gltf(const std::filesystem::path& file, const ByteSource& bytes,
   if (selected >= 0) scene.name = document.model.scenes[static_cast<std::size_t>(selected)].name;
   NodeTree tree = read_nodes(context, document.model);
   const std::vector<int> nodes = nodes_of_scene(context, document.model, tree, selected);
-  Imath::Box3d bounds;
-  {
-    Accessors accessors(context, document);
-    bounds = read_instances(context, document, accessors, tree, nodes, scene);
-    scene.animations = read_animations(context, document, accessors);
-  }
-  load_images(context, document, scene);
+  Buffers buffers(context, document);
+  Accessors accessors(context, document, buffers);
+  const Imath::Box3d bounds = read_instances(context, document, accessors, tree, nodes, scene);
+  scene.animations = read_animations(context, document, accessors);
+  load_images(context, document, buffers, scene);
   read_cameras(context, document.model, tree, nodes, scene);
   read_lights(context, document.model, tree, nodes, scene);
   scene.nodes = std::move(tree.nodes);
