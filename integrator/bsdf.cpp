@@ -48,7 +48,7 @@ V3f bend_to_view(const V3f& n, const V3f& wo, const V3f& geometric_normal) {
 // Source: Kulla and Conty 2017.
 Color multiple_bounces(const Color& f, float albedo_average) {
   const Color lost = f * (1.0f - albedo_average);
-  return f * f * albedo_average / (white() - lost);
+  return at_most_1(f * f * albedo_average / (white() - lost));
 }
 
 }  // namespace
