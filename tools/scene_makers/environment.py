@@ -24,7 +24,7 @@ SUN_ILLUMINANCE = 1.9  # lx on a facing surface
 SUN_COLOR: Vec3 = (1.0, 0.92, 0.78)
 ZENITH: Vec3 = (0.12, 0.22, 0.46)
 HORIZON: Vec3 = (0.50, 0.58, 0.66)
-GROUND: Vec3 = (0.20, 0.19, 0.17)
+GROUND: Vec3 = (0.31, 0.30, 0.29)
 SUN_EDGE = 0.15  # share of the disc's radius over which it fades, so that pixels do not alias
 
 
@@ -70,7 +70,7 @@ def make(folder: Path) -> list[Path]:
         baseColorTexture=scene.texture(scene.add_texture(f"textures/{squares[0].name}", True)),
         roughnessFactor=0.6,
     )
-    half = 12.0
+    half = 40.0
     plane = rectangle(
         (-half, 0.0, half), (2.0 * half, 0.0, 0.0), (0.0, 0.0, -2.0 * half), (half, half)
     )

@@ -18,9 +18,9 @@ RADIUS = 0.42  # of the spheres
 X_AXIS, Y_AXIS = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 ROOM_HALF_WIDTH, ROOM_HEIGHT, ROOM_BACK, ROOM_FRONT = 5.0, 4.2, -3.2, 7.0
 
-AREA_LIGHT_RADIANCE = 20.0  # cd/m²
-STRIP_LIGHT_RADIANCE = 9.0
-SPOT_INTENSITY = 22.0  # cd
+AREA_LIGHT_RADIANCE = 42.0  # cd/m²
+STRIP_LIGHT_RADIANCE = 18.0
+SPOT_INTENSITY = 30.0  # cd
 
 
 def add_room(scene: Document) -> None:
@@ -50,7 +50,7 @@ def add_room(scene: Document) -> None:
         ]
     )
     scene.add_node("walls", mesh=scene.add_mesh("walls", sides, wall))
-    backdrop = scene.add_matte("backdrop", (0.30, 0.36, 0.42))
+    backdrop = scene.add_matte("backdrop", (0.42, 0.46, 0.50))
     scene.add_node("backdrop", mesh=scene.add_mesh("backdrop", cove(w, y, back), backdrop))
 
 
@@ -169,7 +169,7 @@ def add_spheres(scene: Document) -> None:
             },
         },
     )
-    lamp = scene.add_light_material("lamp", (1.0, 0.62, 0.3), 7.0)
+    lamp = scene.add_light_material("lamp", (1.0, 0.62, 0.3), 8.0)
     smooth, mapped = icosphere(3), uv_sphere(64, 32)
     shared = scene.add_mesh("paint sphere", smooth, paint)
     for name, material, x, z, radius in (
@@ -209,11 +209,10 @@ def add_objects(scene: Document) -> None:
         rotation=list(axis_angle(Y_AXIS, radians(28.0))),
     )
     lacquer = scene.add_material(
-        "lacquered cloth",
-        baseColorFactor=[0.95, 0.75, 0.55],
-        baseColorTexture=scene.texture(color, repeat=(6.0, 2.0)),
-        normalTexture=scene.texture(normal, repeat=(6.0, 2.0), scale=0.5),
-        roughnessFactor=0.6,
+        "lacquered weave",
+        baseColorFactor=[0.72, 0.20, 0.05],
+        normalTexture=scene.texture(normal, repeat=(6.0, 2.0), scale=0.6),
+        roughnessFactor=0.5,
         extensions={
             "KHR_materials_clearcoat": {"clearcoatFactor": 1.0, "clearcoatRoughnessFactor": 0.08}
         },
@@ -228,7 +227,7 @@ def add_objects(scene: Document) -> None:
     )
     pane = scene.add_material(
         "window pane",
-        baseColorFactor=[0.78, 0.93, 0.88],
+        baseColorFactor=[0.62, 0.90, 0.82],
         roughnessFactor=0.0,
         doubleSided=True,
         extensions={"KHR_materials_transmission": {"transmissionFactor": 1.0}},
@@ -237,8 +236,8 @@ def add_objects(scene: Document) -> None:
     scene.add_node(
         "window pane",
         mesh=scene.add_mesh("window pane", sheet, pane),
-        translation=[1.15, 0.0, -0.62],
-        rotation=list(axis_angle(Y_AXIS, radians(-24.0))),
+        translation=[1.75, 0.0, -0.55],
+        rotation=list(axis_angle(Y_AXIS, radians(-18.0))),
     )
 
 

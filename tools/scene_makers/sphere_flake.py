@@ -22,8 +22,8 @@ DEEPEST_NODES = 4  # one node a sphere is a megabyte here; beyond, instancing ho
 
 ROOM_LOW: Vec3 = (-2.6, -CENTRAL_RADIUS, -2.6)
 ROOM_HIGH: Vec3 = (2.6, 2.6, 2.6)
-LIGHT_HALF = 0.8
-LIGHT_RADIANCE = 14.0
+LIGHT_HALF = 1.1
+LIGHT_RADIANCE = 6.5
 
 
 def nine_directions() -> list[Vec3]:
