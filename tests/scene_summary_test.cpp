@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "viewer/scene_report.h"
 
 using namespace lumivec;
 
@@ -64,7 +67,7 @@ TEST(SceneSummary, OfAnEmptySceneHasNoBounds) {
   EXPECT_TRUE(world_bounds(Scene()).isEmpty());
 }
 
-TEST(SceneSummary, SaysWhatIsNotShown) {
+TEST(SceneReport, SaysWhatIsNotShown) {
   LoadReport report;
   report.format = "glTF 2.0";
   report.scene_names = {"room"};
@@ -75,7 +78,7 @@ TEST(SceneSummary, SaysWhatIsNotShown) {
   EXPECT_NE(text.find("warning: /materials/3: sheen is left out\n"), std::string::npos);
   EXPECT_NE(text.find("'wood', 4x2, 8 bit"), std::string::npos);
 }
-TEST(SceneSummary, IsValidJsonWhateverTheNames) {
+TEST(SceneReport, IsValidJsonWhateverTheNames) {
   LoadReport report;
   report.scene_names = {"broken \xff name"};
   Scene scene = small_scene();

@@ -1,13 +1,12 @@
 // What an OpenEXR picture of a render holds, channel by channel.
 //
-//   R G B                      the beauty: the sum of the stored layers, rounded once
-//   emitted.R … caustic.B      the five terms, those that were computed; radiance
-//   albedo.R … albedo.B        first hit, [0, 1]
-//   N.X N.Y N.Z                first hit's normal, world space
-//   P.X P.Y P.Z                first hit's position, world space, scene units; always float
-//   Z                          depth along the view axis, scene units, +inf where nothing is hit;
-//   always float id                         index of the instance in the scene + 1, 0 where nothing
-//   is hit; always float
+//   R G B                  the beauty: the sum of the stored layers, rounded once
+//   emitted.R … caustic.B  the five terms, those that were computed; radiance
+//   albedo.R … albedo.B    first hit, [0, 1]
+//   N.X N.Y N.Z            first hit's normal, world space
+//   P.X P.Y P.Z            first hit's position, world space, scene units; always float
+//   Z                      depth along the view axis, scene units, +inf for no hit; always float
+//   id                     instance's index in the scene + 1, 0 for no hit; always float
 //
 // In half precision a value beyond 65504 is stored as 65504, and its pixel is counted.
 #pragma once

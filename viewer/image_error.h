@@ -10,7 +10,8 @@
 
 namespace lumivec {
 
-// Means over pixels and channels, pixels that are not finite in either picture left out.
+// Means over pixels and channels, pixels that are not finite in either picture left out; NaN if
+// none is left.
 struct ImageError {
   double rmse = 0.0;
   double relmse = 0.0;  // mean((a − b)² / (b² + 0.01)), b the reference

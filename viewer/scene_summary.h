@@ -1,13 +1,11 @@
-// A scene in numbers: what `lumivec info` tells.
+// A scene in numbers.
 #pragma once
 
 #include <ImathBox.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 
-#include "loader/load_scene.h"
 #include "loader/scene.h"
 
 namespace lumivec {
@@ -25,9 +23,5 @@ SceneCounts count_scene(const Scene& scene);
 
 // World space, scene units; exact for spheres under any affine transform. Empty if the scene is.
 Imath::Box3d world_bounds(const Scene& scene);
-
-// The report as lines for a person, or as JSON with every item.
-std::string scene_text(const std::string& file, const Scene& scene, const LoadReport& report);
-std::string scene_json(const std::string& file, const Scene& scene, const LoadReport& report);
 
 }  // namespace lumivec

@@ -50,7 +50,7 @@ std::string format_bytes(std::uint64_t bytes) {
 std::string format_count(std::uint64_t count) {
   std::string digits = std::to_string(count);
   for (auto place = std::ptrdiff_t(digits.size()) - 3; place > 0; place -= 3) {
-    digits.insert(std::size_t(place), ",");
+    digits.insert(std::size_t(place), 1, ',');
   }
   return digits;
 }

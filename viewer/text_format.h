@@ -6,8 +6,8 @@
 
 namespace lumivec {
 
-std::string format_duration(
-    double seconds);  // "42 ms", "0.42 s", "12.3 s", "4:05", "2:03:04"; "?" if not finite
+// "42 ms", "0.42 s", "12.3 s", "4:05", "2:03:04"; "?" if negative or not finite.
+std::string format_duration(double seconds);
 std::string format_bytes(std::uint64_t bytes);                 // "512 B", "1.5 KiB", "2.3 GiB"
 std::string format_count(std::uint64_t count);                 // "1,234,567"
 std::string format_number(double value, int significant = 4);  // as printf's %g

@@ -11,8 +11,8 @@
 
 namespace lumivec {
 
-// An option with one value: read takes the text of it. names as CLI11 takes them ("-o,--output");
-// the first long name is the one that messages use, if read asks for it.
+// An option with one value: read takes its text. names as CLI11 takes them, "-o,--output"; a name
+// without dashes is an argument. value_name is what the help calls the value.
 CLI::Option* add_value_option(CLI::App& app, const std::string& names,
                               const std::string& value_name, const std::string& description,
                               const std::function<void(const std::string&)>& read);

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "viewer/errors.h"
-#include "viewer/scene_summary.h"
+#include "viewer/scene_report.h"
 
 namespace lumivec {
 
