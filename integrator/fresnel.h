@@ -25,6 +25,7 @@ struct Refraction {
 // [0, 1]. Source: Born and Wolf, Principles of Optics, 1.5.2. Snell's law is written with η² − 1,
 // which keeps its digits where the indices are nearly equal.
 inline Refraction fresnel_dielectric(float cos_incident, float eta) {
+  cos_incident = std::max(cos_incident, 0.0f);  // of a half vector, it may be negative by rounding
   const float s = (eta - 1.0f) * (eta + 1.0f) + cos_incident * cos_incident;  // η² cos²θt
   if (s <= 0.0f) return {1.0f, 0.0f};
   const float cos_t = std::sqrt(s) / eta;

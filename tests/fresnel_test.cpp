@@ -50,6 +50,11 @@ TEST(Fresnel, SnellsLaw) {
   EXPECT_NEAR(r.cos_transmitted, std::sqrt(1.0f - 0.16f), 1e-6f);
 }
 
+TEST(Fresnel, NegativeCosinesOfRoundingAreGrazing) {
+  for (const float eta : {1.0f, 1.5f, 1.0f / 1.5f})
+    EXPECT_NEAR(fresnel_dielectric(-1e-8f, eta).reflectance, 1.0f, 1e-6f) << eta;
+}
+
 TEST(Fresnel, EqualIndicesReflectNothing) {
   for (const float c : {1e-6f, 1e-3f, 0.5f, 1.0f}) {
     EXPECT_NEAR(fresnel_dielectric(c, 1.0f).reflectance, 0.0f, 1e-9f) << c;
