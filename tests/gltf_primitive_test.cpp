@@ -242,6 +242,26 @@ TEST(GltfPrimitive, MirroredSeamsGetTheirOwnVertices) {
   }
 }
 
+TEST(GltfPrimitive, EqualVerticesShareTheirTangent) {
+  GltfFile file;  // two triangles without indices, whose textures are sheared against each other
+  file.attribute("POSITION",
+                 file.accessor<float>("VEC3", GltfFile::float32,
+                                      {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0}));
+  file.attribute("NORMAL", file.accessor<float>("VEC3", GltfFile::float32,
+                                                {0, 0, 1, 0, 0, 1, 0, 0, 1,  //
+                                                 0, 0, 1, 0, 0, 1, 0, 0, 1}));
+  file.attribute("TEXCOORD_0", file.accessor<float>("VEC2", GltfFile::float32,
+                                                    {0, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, -1}));
+  file.material(R"({"normalTexture": {"index": 0}})");
+  file.patch(R"({"textures": [{"source": 0}], "images": [{"uri": "none.png"}]})");
+  const Scene scene = file.load();
+  const Mesh& mesh = scene.meshes[0];
+  ASSERT_EQ(mesh.tangents.size(), 6u);
+  EXPECT_EQ(mesh.tangents[1], mesh.tangents[4]);
+  EXPECT_EQ(mesh.tangents[2], mesh.tangents[3]);
+  EXPECT_NE(mesh.tangents[0], mesh.tangents[5]);
+}
+
 TEST(GltfPrimitive, GivenTangentsAreKept) {
   GltfFile file;
   square(file, false);

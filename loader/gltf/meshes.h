@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "loader/gltf/normals.h"
 #include "loader/gltf/pose.h"
+#include "loader/gltf/tangents.h"
 
 namespace lumivec::gltf {
 
