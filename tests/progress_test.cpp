@@ -32,10 +32,15 @@ TEST(ProgressLine, LeavesOutWhatIsNot) {
   progress.error = -1.0;
   EXPECT_EQ(progress_line(progress), "42%: 27 samples a pixel");
 }
+TEST(ProgressLine, CountsWholeSeconds) {
+  RenderProgress progress = some_progress();
+  progress.seconds_left = 3.7;
+  EXPECT_EQ(progress_line(progress), "42%: 27 samples a pixel, 4 s left, error 2.34%");
+}
 TEST(ProgressLine, SurvivesNonsense) {
   RenderProgress progress;
   progress.fraction = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(progress_line(progress), "0%: 0 samples a pixel, 0.00 s left");
+  EXPECT_EQ(progress_line(progress), "0%: 0 samples a pixel, 0 s left");
 }
 
 TEST(ProgressBar, FitsTheTerminal) {

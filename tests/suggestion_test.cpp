@@ -47,6 +47,10 @@ TEST(Closest, TakesTheFirstOfEqualOnes) {
 TEST(Closest, FindsNothingFarAway) {
   EXPECT_FALSE(closest("mitchell", {"box", "tent"}));
 }
+TEST(Closest, DoesNotGuessShortWords) {
+  EXPECT_FALSE(closest("12", {"8", "16"}));
+  EXPECT_EQ(closest("p3", {"P3"}), "P3");
+}
 TEST(Closest, FindsNothingAmongNothing) {
   EXPECT_FALSE(closest("box", {}));
 }

@@ -18,7 +18,11 @@ std::string samples_text(double samples) {
                                                           : format_fixed(samples, 0);
 }
 
+// In whole seconds: the estimate is no better.
 std::string time_left(const RenderProgress& progress) {
+  if (progress.seconds_left < 59.5) {
+    return ", " + format_fixed(std::max(progress.seconds_left, 0.0), 0) + " s left";
+  }
   const std::string left = format_duration(progress.seconds_left);
   return left == "?" ? "" : ", " + left + " left";
 }

@@ -39,7 +39,8 @@ std::optional<std::string> closest(std::string_view word,
   constexpr std::size_t shortest_beginning = 3;
   const std::string wanted = lower(word);
   std::optional<std::string> best;
-  std::size_t best_distance = std::max<std::size_t>(1, wanted.size() / letters_per_edit) + 1;
+  // Words of one or two letters differ by one edit from too many others.
+  std::size_t best_distance = wanted.size() / letters_per_edit + 1;
   for (const std::string& candidate : candidates) {
     const std::string known = lower(candidate);
     std::size_t distance = edit_distance(wanted, known);
