@@ -25,8 +25,9 @@ constexpr int jpeg_quality =
 
 [[noreturn]] void fail(const fs::path& file, std::string reason) {
   std::replace(reason.begin(), reason.end(), '\n', ' ');
-  throw CommandError(file.string() +
-                     ": cannot be written: " + (reason.empty() ? "no reason given" : reason));
+  if (reason.empty()) reason = "no reason is given";
+  throw CommandError(file.string() + ": cannot be written: " + reason +
+                     "; see whether the disk is full");
 }
 
 void describe(OIIO::ImageSpec& spec, const StillHeader& header) {
