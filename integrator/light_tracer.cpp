@@ -257,7 +257,12 @@ void LightTracer::trace_path(std::uint64_t path, std::vector<Splat>& splats,
     const SurfacePoint point = scene_.surface(hit, origin, direction);
     const Material& material = *point.material;
     if (material.unlit) return;
-    if (const Material* medium = media.top()) weight *= volume_transmittance(*medium, hit.distance);
+    const Material* medium = media.top();
+    // A lamp inside a volume finds out where its light comes to the boundary.
+    if (!medium && !point.front && material.transmission > 0.0f && !material.thin_walled) {
+      medium = &material;
+    }
+    if (medium) weight *= volume_transmittance(*medium, hit.distance);
     const SurfaceParameters parameters =
         scene_.parameters(point, media.outside_ior(material, point.front));
     const V3f wo = -direction;
