@@ -133,7 +133,8 @@ TEST(GltfAccessor, HugeSparseAccessorsStopAtTheLimit) {
 
 TEST(GltfAccessor, MaxBytesBoundsGeometry) {
   GltfFile file;
-  file.options.max_bytes = 40;
+  file.options.max_bytes = 40000;
+  file.attribute("POSITION", file.accessor("VEC3", GltfFile::float32, std::vector<float>(9000)));
   EXPECT_TRUE(contains(file.error(), "limit"));
 }
 

@@ -165,6 +165,13 @@ TEST(GltfContainer, DevicesAreRefused) {
   EXPECT_TRUE(contains(file.error(), "not a regular file"));
 }
 
+TEST(GltfContainer, ManyEmptyObjectsStopAtTheLimit) {
+  GltfFile file;
+  file.root["materials"] = std::vector<nlohmann::json>(10000, nlohmann::json::object());
+  file.options.max_bytes = 1 << 20;
+  EXPECT_TRUE(contains(file.error(), "limit"));
+}
+
 TEST(GltfContainer, RequiredExtensionsMustBeKnown) {
   GltfFile file;
   file.patch(R"({"extensionsUsed": ["X_new"], "extensionsRequired": ["X_new"]})");

@@ -18,7 +18,8 @@ std::uint32_t little_endian(const ByteSource& file, std::uint64_t offset) {
          std::uint32_t{b[3]} << 24;
 }
 
-std::string text(const ByteSource& part) {
+std::string text(Context& context, const ByteSource& part) {
+  context.claim(part.size(), "");
   std::string json(part.size(), '\0');
   part.read(0, json.data(), json.size());
   return json;
@@ -30,10 +31,10 @@ std::string at_byte(std::uint64_t offset) {
 
 }  // namespace
 
-Container read_container(const Context& context, const ByteSource& file) {
+Container read_container(Context& context, const ByteSource& file) {
   Container container;
   if (file.size() < 4 || little_endian(file, 0) != magic) {
-    container.json = text(file);
+    container.json = text(context, file);
     return container;
   }
   container.binary = true;
@@ -68,7 +69,7 @@ Container read_container(const Context& context, const ByteSource& file) {
     }
     if (!has_json) {
       if (type != json_chunk) context.fail(at_byte(offset), "the first chunk is not JSON");
-      container.json = text(file.slice(begin, size));
+      container.json = text(context, file.slice(begin, size));
       has_json = true;
     } else if (type == json_chunk || (type == bin_chunk && container.chunk)) {
       context.fail(at_byte(offset), "more than one chunk of the same type");

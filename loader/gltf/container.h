@@ -16,8 +16,8 @@ struct Container {
   std::optional<ByteSource> chunk;  // BIN, if there is one
 };
 
-// Throws SceneError where the header or a chunk contradicts the file's size, or the version is
-// not 2.
-Container read_container(const Context& context, const ByteSource& file);
+// Claims the size of the JSON. Throws SceneError where the header or a chunk contradicts the file's
+// size, or the version is not 2.
+Container read_container(Context& context, const ByteSource& file);
 
 }  // namespace lumivec::gltf

@@ -168,6 +168,21 @@ void check_kinds(const Context& context, const json& root) {
   }
 }
 
+// An empty object of three characters becomes a structure of up to kilobytes.
+void claim_model(Context& context, const json& root) {
+  const std::pair<const char*, std::size_t> arrays[] = {
+      {"accessors", sizeof(tinygltf::Accessor)}, {"animations", sizeof(tinygltf::Animation)},
+      {"cameras", sizeof(tinygltf::Camera)},     {"materials", sizeof(tinygltf::Material)},
+      {"meshes", sizeof(tinygltf::Mesh)},        {"nodes", sizeof(tinygltf::Node)},
+      {"samplers", sizeof(tinygltf::Sampler)},   {"scenes", sizeof(tinygltf::Scene)},
+      {"skins", sizeof(tinygltf::Skin)},         {"textures", sizeof(tinygltf::Texture)},
+  };
+  for (const auto& [name, size] : arrays) {
+    const auto it = root.find(name);
+    if (it != root.end()) context.claim(it->size(), size, std::string("/") + name);
+  }
+}
+
 tinygltf::Model read_model(const Context& context, json root) {
   std::string text = root.dump();
   root = nullptr;
@@ -203,6 +218,7 @@ Document parse_document(Context& context, Container container) {
   document.views = take_views(root["bufferViews"]);
   document.accessors = take_accessors(root["accessors"]);
   document.images = take_images(root["images"]);
+  claim_model(context, root);
   put_placeholders(root, document.accessors.size());
   document.model = read_model(context, std::move(root));
   return document;

@@ -42,6 +42,7 @@ ByteSource open_image(Context& context, Document& document, Buffers& buffers, co
 
 void decode(Context& context, Task& task) {
   try {
+    context.claim(task.bytes.size(), task.where);
     const auto bytes = task.bytes.read(0, task.bytes.size());
     task.image =
         decode_picture(bytes, [&](std::uint64_t size) { context.claim(size, task.where); });
