@@ -80,9 +80,9 @@ struct Lane {
   std::optional<Fork> fork;
   int depth = 0;  // scattering events so far
 
-  V3f origin, direction;
+  V3f origin{0.0f}, direction{0.0f};
   float near = 0.0f, far = std::numeric_limits<float>::infinity();
-  Color throughput;
+  Color throughput{0.0f};
   float radiance_scale =
       1.0f;  // product of squared ratios of indices: what throughput owes to refraction alone
   Term term = Term::emitted;
@@ -91,19 +91,21 @@ struct Lane {
 
   // How light sampling at the last vertex could have found what this ray finds.
   bool light_sampled = false;
-  V3f vertex, vertex_normal;
+  V3f vertex{0.0f}, vertex_normal{0.0f};
   float scatter_pdf = 0.0f;
 
   bool shadow = false;
-  V3f shadow_origin, shadow_target;
-  Color shadow_light[2];  // by LobeKind, if nothing is in between
-  Term shadow_term[2];
+  V3f shadow_origin{0.0f}, shadow_target{0.0f};
+  Color shadow_light[2] = {Color(0.0f), Color(0.0f)};  // by LobeKind, if nothing is in between
+  Term shadow_term[2] = {Term::direct, Term::specular};
 
   std::array<Color, term_count> radiance;
-  Color albedo;
-  V3f normal, position;
+  Color albedo{0.0f};
+  V3f normal{0.0f}, position{0.0f};
   float hit_depth = 0.0f;
   std::int32_t object = -1;
+
+  Lane() { radiance.fill(Color(0.0f)); }
 
   void add(Term to, const Color& light) { radiance[static_cast<std::size_t>(to)] += light; }
 
@@ -179,9 +181,6 @@ class PathStream {
     lane.near = ray.near;
     lane.far = ray.far;
     lane.throughput = Color(1.0f);
-    lane.radiance.fill(Color(0.0f));
-    lane.albedo = Color(0.0f);
-    lane.normal = lane.position = V3f(0.0f);
     lane.hit_depth = std::numeric_limits<float>::infinity();
     ++statistics_.samples;
   }

@@ -32,8 +32,8 @@ namespace {
 constexpr int bounces = 3;
 
 struct Ray {
-  V3f origin, direction;
-  float far;
+  V3f origin{0.0f}, direction{0.0f};
+  float far = 0.0f;
 };
 
 struct RaySet {
