@@ -18,7 +18,7 @@ RADIUS = 0.42  # of the spheres
 X_AXIS, Y_AXIS = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 ROOM_HALF_WIDTH, ROOM_HEIGHT, ROOM_BACK, ROOM_FRONT = 5.0, 4.2, -3.2, 7.0
 
-AREA_LIGHT_RADIANCE = 42.0  # cd/m²
+AREA_LIGHT_RADIANCE = 20.0  # cd/m²
 STRIP_LIGHT_RADIANCE = 18.0
 SPOT_INTENSITY = 30.0  # cd
 
@@ -80,7 +80,7 @@ def add_lights(scene: Document) -> None:
     key = scene.add_light_material("key light", (1.0, 0.95, 0.88), AREA_LIGHT_RADIANCE)
     strip = scene.add_light_material("strip light", (0.82, 0.91, 1.0), STRIP_LIGHT_RADIANCE)
     for name, material, centre, target, width, height in (
-        ("key light", key, (-2.6, 3.7, 2.2), (0.0, 0.3, 0.0), 1.8, 1.2),
+        ("key light", key, (-2.6, 3.5, 2.2), (0.0, 0.3, 0.0), 2.6, 1.8),
         ("strip light", strip, (4.2, 2.0, 1.6), (0.0, 0.5, 0.2), 0.5, 2.6),
     ):
         quad = rectangle((-width / 2.0, -height / 2.0, 0.0), (width, 0.0, 0.0), (0.0, height, 0.0))
@@ -169,7 +169,7 @@ def add_spheres(scene: Document) -> None:
             },
         },
     )
-    lamp = scene.add_light_material("lamp", (1.0, 0.62, 0.3), 8.0)
+    lamp = scene.add_light_material("lamp", (1.0, 0.62, 0.3), 6.0)
     smooth, mapped = icosphere(3), uv_sphere(64, 32)
     shared = scene.add_mesh("paint sphere", smooth, paint)
     for name, material, x, z, radius in (
@@ -180,7 +180,7 @@ def add_spheres(scene: Document) -> None:
         ("polished steel", steel, -1.2, 0.15, RADIUS),
         ("satin copper", copper, 0.05, 0.25, RADIUS),
         ("blasted aluminium", aluminium, 1.2, 0.1, RADIUS),
-        ("lamp", lamp, -0.05, 2.1, 0.09),
+        ("lamp", lamp, -0.05, 2.1, 0.11),
     ):
         mesh = shared if material == paint else scene.share_mesh(name, shared, material)
         scene.add_node(name, mesh=mesh, translation=[x, radius, z], scale=[radius] * 3)
