@@ -35,6 +35,10 @@ CoatedAlbedo mix(const CoatedAlbedo& a, const CoatedAlbedo& b, float t) {
           mix(a.reflected_schlick, b.reflected_schlick, t)};
 }
 
+// Interpolation is then off by 1e-3 (root mean square), as is the quadrature of the nodes.
+constexpr int columns_without = 32;
+constexpr int columns_with_critical_angle = 49;  // half of them, of even number, on each side of it
+
 // Gauss-Legendre with three points on [0, 1]: exact to degree 5. Between two columns albedos are
 // linear and the cosine quadratic in the column, so that an average is of degree 4 and one of a
 // product of degree 5.
@@ -58,9 +62,9 @@ void for_each_point(float low, float middle, float high, const F& f) {
 
 AlbedoTable::AlbedoTable(float eta)
     : eta_(eta),
-      columns_(eta < 1.0f ? 49 : 32),
+      columns_(eta < 1.0f ? columns_with_critical_angle : columns_without),
       critical_cosine_(eta < 1.0f ? std::sqrt((1.0f - eta) * (1.0f + eta)) : 0.0f),
-      critical_column_(eta < 1.0f ? 24 : 0),
+      critical_column_(eta < 1.0f ? columns_with_critical_angle / 2 : 0),
       nodes_(rows * columns_),
       lost_(rows * columns_),
       loss_density_(rows * columns_),
@@ -73,13 +77,13 @@ AlbedoTable::AlbedoTable(float eta)
     const float y = static_cast<float>(row - 1) / (rows - 2);
     const float roughness = row == 0 ? 0.0f : delta_roughness + (1.0f - delta_roughness) * y * y;
     for (int column = 0; column < columns_; ++column)
-      nodes_[row * columns_ + column] =
-          ggx_albedo(cosine_of(static_cast<float>(column)), roughness * roughness, eta);
+      nodes_[row * columns_ + column] = std::bit_cast<Node>(
+          ggx_albedo(cosine_of(static_cast<float>(column)), roughness * roughness, eta));
     for (int column = 0; column + 1 < columns_; ++column) {
       float lost = 0.0f;
       const auto [low, middle, high] = cosines(column);
       for_each_point(low, middle, high, [&](float x, float, float weight) {
-        const Albedo a = mix(*node(row, column), *node(row, column + 1), x);
+        const Albedo a = at({column, x}, node_row(row));
         averages_[row] = sum(averages_[row], weight, a);
         lost += weight * std::max(0.0f, 1.0f - a.reflected);
       });
@@ -104,8 +108,8 @@ void AlbedoTable::multiply_with_coat(const AlbedoTable& coat) {
     for (int column = 0; column + 1 < columns_; ++column) {
       const auto [low, middle, high] = cosines(column);
       for_each_point(low, middle, high, [&](float x, float mu, float weight) {
-        albedos.push_back(at({column, x}, {row, 0.0f}));
-        const Albedo c = coat.at(coat.column_of(mu), {row, 0.0f});
+        albedos.push_back(at({column, x}, node_row(row)));
+        const Albedo c = coat.at(coat.column_of(mu), node_row(row));
         coat_albedos.push_back(weight * (f0 * c.reflected + (1.0f - f0) * c.reflected_exact));
       });
     }
@@ -147,6 +151,10 @@ AlbedoRow AlbedoTable::row_of(float roughness) {
   return {row, place - row};
 }
 
+AlbedoRow AlbedoTable::node_row(int row) {
+  return row + 1 < rows ? AlbedoRow{row, 0.0f} : AlbedoRow{row - 1, 1.0f};
+}
+
 Albedo AlbedoTable::average(AlbedoRow row) const {
   return mix(averages_[row.row], averages_[row.row + 1], row.fraction);
 }
@@ -177,25 +185,39 @@ float AlbedoTable::sample_loss(float u, AlbedoRow row) const {
 }
 
 AlbedoTables::AlbedoTables(std::span<const float> indices) {
-  std::vector<float> etas = {coat_index, 1.0f / coat_index};
-  for (const float n : indices) {
-    if (!(n > 0.0f) || !std::isfinite(n)) continue;
-    for (const float eta : {n, 1.0f / n})
-      if (std::find(etas.begin(), etas.end(), eta) == etas.end()) etas.push_back(eta);
+  // With more indices than this, pairs of them are too many for the time they take: 64 tables are a
+  // tenth of a second.
+  constexpr std::size_t few = 8;
+  std::vector<float> known = {coat_index};
+  const auto add = [](std::vector<float>& to, float value) {
+    if (std::find(to.begin(), to.end(), value) == to.end()) to.push_back(value);
+  };
+  for (const float n : indices)
+    if (n > 0.0f && std::isfinite(n)) add(known, n);
+  for (const float n : known) {
+    add(etas_, n);
+    add(etas_, 1.0f / n);
   }
-  tables_.reserve(etas.size());
-  for (const float eta : etas) tables_.emplace_back(eta);
+  if (known.size() <= few) {
+    for (const float n : known)
+      for (const float m : known)
+        if (n != m) add(etas_, n / m);
+  }
+  tables_.reserve(etas_.size());
+  for (const float eta : etas_) tables_.emplace_back(eta);
   for (AlbedoTable& table : tables_) table.multiply_with_coat(tables_.front());
 }
 
 const AlbedoTable& AlbedoTables::nearest(float eta) const {
-  for (const AlbedoTable& table : tables_)
-    if (table.eta() == eta) return table;
+  const auto place = [this](auto i) -> const AlbedoTable& {
+    return tables_[static_cast<std::size_t>(i - etas_.begin())];
+  };
+  const auto exact = std::find(etas_.begin(), etas_.end(), eta);
+  if (exact != etas_.end()) return place(exact);
   if (!(eta > 0.0f)) return tables_.front();
-  const auto ratio = [eta](const AlbedoTable& t) { return std::max(t.eta() / eta, eta / t.eta()); };
-  return *std::min_element(
-      tables_.begin(), tables_.end(),
-      [&](const AlbedoTable& a, const AlbedoTable& b) { return ratio(a) < ratio(b); });
+  const auto ratio = [eta](float other) { return std::max(other / eta, eta / other); };
+  return place(std::min_element(etas_.begin(), etas_.end(),
+                                [&](float a, float b) { return ratio(a) < ratio(b); }));
 }
 
 }  // namespace lumivec

@@ -21,15 +21,15 @@ constexpr float schlick_average = 1.0f / 21.0f;
 // Microfacets of a boundary whose index is nearly matched reflect little and bend little: the
 // transmitted lobe is as much narrower than the facets' slopes as 1 − 1/n is small. It is a delta
 // lobe where it is narrower than that of an index of 1.5 at delta_roughness.
-constexpr float coat_like_bending = 1.0f - 1.0f / coat_index;
+constexpr float common_bending = 1.0f - 1.0f / coat_index;
 
-// A lobe of any reflection is chosen at least this often: its albedo may be all but 0 where single
+// The reflection is chosen at least this often: its albedo may be all but 0 where single
 // directions are not.
 constexpr float least_probability = 0.02f;
 
 bool transmits_straight(float alpha, float eta) {
   const float bending = 1.0f - std::min(eta, 1.0f / eta);
-  return alpha * std::min(1.0f, bending / coat_like_bending) < delta_roughness * delta_roughness;
+  return alpha * std::min(1.0f, bending / common_bending) < delta_roughness * delta_roughness;
 }
 
 // The direction nearest to n that wo is above.
@@ -67,7 +67,7 @@ float Bsdf::Coat::transmittance(float cos_theta) const {
 }
 
 Albedo Bsdf::base_albedo(float cos_theta) const {
-  if (!rough_) return ggx_albedo(cos_theta, 0.0f, eta_);
+  if (!rough_) return smooth_albedo(cos_theta, eta_);
   Albedo a = table_->at(table_->column_of(cos_theta), row_);
   if (eta_ == 0.0f) a.reflected_exact = a.reflected_schlick;
   return a;
@@ -138,8 +138,8 @@ void Bsdf::set_base(const SurfaceParameters& surface, const AlbedoTables& tables
 
   dielectric_f0_ = at_most_1(surface.specular_color * normal_reflectance(eta_)) * surface.specular;
   dielectric_rise_ = eta_ == 1.0f ? Color(0.0f) : Color(surface.specular) - dielectric_f0_;
-  const bool passes =
-      thin_ || eta_ > 0.0f;  // a boundary that reflects everything has no index to refract with
+  // A boundary that reflects everything has no index to refract with.
+  const bool passes = thin_ || eta_ > 0.0f;
   passing_ = passes ? base * (dielectric * surface.transmission) : Color(0.0f);
   const bool bends = !thin_ && passes && !(rough_ && transmits_straight(alpha_, eta_));
   facets_transmit_ = rough_ && (thin_ || bends) && !is_black(passing_);
@@ -149,34 +149,35 @@ void Bsdf::set_base(const SurfaceParameters& surface, const AlbedoTables& tables
   reflectance_ = {dielectric_f0_ * dielectric + base * metal, dielectric_rise_ * dielectric,
                   (white() - base) * metal, Color(total)};
 
-  Weights below{};
   const Albedo at_wo = base_albedo(local_wo_.z);
   Albedo average = table_->average(row_);
   if (eta_ == 0.0f) average.reflected_exact = average.reflected_schlick;
-  set_spread(surface, at_wo, average, below);
+  set_spread(surface, at_wo, average, weights);
 
-  const Color remainder_wo = dielectric_remainder(at_wo);
-  const Color remainder = dielectric_remainder(average);
-  const Color diffused = base * (dielectric * (1.0f - surface.transmission));
-  diffuse_ = quotient(diffused * remainder_wo * inv_pi, remainder);
-  below[diffuse] = mean(diffused * remainder_wo);
+  Color remainder_wo(0.0f), remainder(0.0f);
+  diffuse_ = Color(0.0f);
+  if (dielectric > 0.0f) {
+    remainder_wo = dielectric_remainder(at_wo);
+    remainder = dielectric_remainder(average);
+    const Color diffused = base * remainder_wo * (dielectric * (1.0f - surface.transmission));
+    diffuse_ = quotient(diffused * inv_pi, remainder);
+    weights[diffuse] = mean(diffused) * coat_transmittance_wo_;
+  }
 
-  below[reflect] = mean(reflectance_.constant) * at_wo.reflected +
-                   mean(reflectance_.exact) * at_wo.reflected_exact +
-                   mean(reflectance_.schlick) * at_wo.reflected_schlick +
-                   mean(reflectance_.total) * at_wo.reflected_total;
+  float facets = mean(reflectance_.constant) * at_wo.reflected +
+                 mean(reflectance_.exact) * at_wo.reflected_exact +
+                 mean(reflectance_.schlick) * at_wo.reflected_schlick +
+                 mean(reflectance_.total) * at_wo.reflected_total;
   if (facets_transmit_) {
     const float one = thin_ ? at_wo.reflected : at_wo.transmitted;
     const float exact = thin_ ? at_wo.reflected_exact : at_wo.transmitted_exact;
-    below[reflect] +=
-        mean(passing_ * ((white() - dielectric_f0_) * one - dielectric_rise_ * exact));
+    facets += mean(passing_ * ((white() - dielectric_f0_) * one - dielectric_rise_ * exact));
   } else {
     const bool refuses = bends && at_wo.reflected_total > 0.0f;
     straight_ = refuses ? Color(0.0f) : passing_ * remainder_wo;
-    below[transmit] = mean(straight_);
+    weights[transmit] = mean(straight_) * coat_transmittance_wo_;
   }
-  for (int lobe = 0; lobe < lobe_count; ++lobe)
-    weights[lobe] += std::max(0.0f, below[lobe]) * coat_transmittance_wo_;
+  weights[reflect] = std::max(0.0f, facets) * coat_transmittance_wo_;
   if (coat_.strength > 0.0f) couple_with_coat(remainder, average);
 }
 
@@ -193,20 +194,26 @@ void Bsdf::set_spread(const SurfaceParameters& surface, const Albedo& at_wo, con
   const bool glass = facets_transmit_ && !thin_;
   const float dielectric = (1.0f - metal) * (glass ? 1.0f - surface.transmission : 1.0f);
   const Color base = at_most_1(surface.base_color);
-  const float exact_average =
-      eta_ == 0.0f ? schlick_average : table_->average(AlbedoRow()).reflected_exact;
-  dielectric_spread_ =
-      multiple_bounces(dielectric_f0_ + dielectric_rise_ * exact_average, average.reflected);
-  const Color metal_spread =
-      multiple_bounces(base + (white() - base) * schlick_average, average.reflected);
-  const Color returned = (dielectric_spread_ * dielectric + metal_spread * metal) * lost_wo;
+  Color returned(0.0f);
+  if (metal < 1.0f) {
+    const float exact_average =
+        eta_ == 0.0f ? schlick_average : table_->average(AlbedoRow()).reflected_exact;
+    dielectric_spread_ =
+        multiple_bounces(dielectric_f0_ + dielectric_rise_ * exact_average, average.reflected);
+    returned = dielectric_spread_ * (dielectric * lost_wo);
+  }
+  if (metal > 0.0f) {
+    const Color metal_spread =
+        multiple_bounces(base + (white() - base) * schlick_average, average.reflected);
+    returned += metal_spread * (metal * lost_wo);
+  }
   spread_ = returned * (inv_pi / lost);
-  weights[spread] = mean(returned);
+  weights[spread] = mean(returned) * coat_transmittance_wo_;
   if (!facets_transmit_) return;
   if (thin_) {
     const Color passed = passing_ * (white() - dielectric_spread_) * lost_wo;
     spread_through_ = passed * (inv_pi / lost);
-    weights[spread_through] = mean(passed);
+    weights[spread_through] = mean(passed) * coat_transmittance_wo_;
   } else {
     set_glass_spread(surface, at_wo, average, weights);
   }
@@ -232,8 +239,8 @@ void Bsdf::set_glass_spread(const SurfaceParameters& surface, const Albedo& at_w
   const Color returned = (white() - share) * lost_wo * glass;
   spread_glass_ = quotient(returned * inv_pi, here);
   spread_through_ = quotient(passing_ * transmittance * lost_wo * inv_pi, larger);
-  weights[spread] += mean(returned);
-  weights[spread_through] = mean(passing_ * share * lost_wo);
+  weights[spread] += mean(returned) * coat_transmittance_wo_;
+  weights[spread_through] = mean(passing_ * share * lost_wo) * coat_transmittance_wo_;
 }
 
 // A coat is alike on both faces of what it covers. Light that comes from o and leaves in direction
@@ -245,11 +252,12 @@ void Bsdf::couple_with_coat(const Color& remainder, const Albedo& average) {
   CoatedAlbedo both = table_->coated_average(row_, coat_.row);
   if (eta_ == 0.0f) both.reflected_exact = both.reflected_schlick;
   // Where the coat's normal is another the averages do not hold; the largest transmittance is then
-  // the safe N.
+  // the safe N. From half a radian on nothing of the averages is left; in between a blend keeps
+  // surfaces smooth.
   const float tilt = std::min(1.0f, 2.0f * (coat_frame_.n - frame_.n).length());
   const float largest = coat_.transmittance(1.0f);
   const auto normalised = [&](const Color& kept) {
-    return (kept * (1.0f - tilt) + Color(tilt * largest));
+    return kept * (1.0f - tilt) + Color(tilt * largest);
   };
   const Color diffuse_loss = quotient(both.coat * (white() - dielectric_spread_) -
                                           (dielectric_f0_ - dielectric_spread_) * both.reflected -
@@ -264,25 +272,29 @@ void Bsdf::couple_with_coat(const Color& remainder, const Albedo& average) {
                      normalised(Color(1.0f - spread_loss * coat_.strength)));
 }
 
-void Bsdf::set_lobes(const SurfaceParameters& surface, float specular_roughness, Weights& weights) {
-  float total = 0.0f;
-  for (const float w : weights) total += w;
+void Bsdf::set_lobes(const SurfaceParameters& surface, float specular_roughness,
+                     const Weights& weights) {
+  const float others = weights[coat] + weights[transmit] + weights[spread] +
+                       weights[spread_through] + weights[diffuse];
   const bool reflects = !is_black(reflectance_.constant) || !is_black(reflectance_.exact) ||
                         !is_black(reflectance_.schlick);
-  if (reflects) weights[reflect] = std::max(weights[reflect], least_probability * total);
-  total = 0.0f;
-  for (const float w : weights) total += w;
-  const auto set = [&](Lobe lobe, float roughness, bool delta) {
-    const bool specular = delta || roughness < specular_roughness;
-    lobes_[lobe] = {total > 0.0f ? weights[lobe] / total : 0.0f,
-                    specular ? LobeKind::specular : LobeKind::non_specular, delta};
+  const float facets =
+      reflects ? std::max(weights[reflect], least_probability * (others + weights[reflect]))
+               : weights[reflect];
+  const float total = others + facets;
+  const float scale = total > 0.0f ? 1.0f / total : 0.0f;
+  const auto kind = [=](float roughness) {
+    const bool specular = roughness < std::max(specular_roughness, delta_roughness);
+    return specular ? LobeKind::specular : LobeKind::non_specular;
   };
-  set(coat, surface.clearcoat_roughness, surface.clearcoat_roughness < delta_roughness);
-  set(reflect, surface.roughness, !rough_);
-  set(transmit, surface.roughness, true);
-  set(spread, surface.roughness, false);
-  set(spread_through, surface.roughness, false);
-  lobes_[diffuse] = {total > 0.0f ? weights[diffuse] / total : 0.0f, LobeKind::non_specular, false};
+  const LobeKind base = kind(surface.roughness);
+  const bool smooth_coat = surface.clearcoat_roughness < delta_roughness;
+  lobes_[coat] = {weights[coat] * scale, kind(surface.clearcoat_roughness), smooth_coat};
+  lobes_[reflect] = {facets * scale, base, !rough_};
+  lobes_[transmit] = {weights[transmit] * scale, LobeKind::specular, true};
+  lobes_[spread] = {weights[spread] * scale, base, false};
+  lobes_[spread_through] = {weights[spread_through] * scale, base, false};
+  lobes_[diffuse] = {weights[diffuse] * scale, LobeKind::non_specular, false};
 }
 
 bool Bsdf::has(LobeKind kind) const {

@@ -3,9 +3,14 @@
 //
 // eval, pdf and sample agree with each other (χ²-tested). Every lobe has one kind, non-specular (D)
 // or specular (S), which decides the term that the light it scatters belongs to; the two kinds are
-// evaluated and sampled apart, so that a path's term follows from the kinds of its events. Source:
-// Walter et al. 2007 (GGX, rough refraction), Heitz 2018 (visible normals), Kulla and Conty 2017
-// (energy).
+// evaluated and sampled apart, so that a path's term follows from the kinds of its events.
+// Reciprocal; what does not absorb loses nothing but, under a coat, a few per cent of rough
+// reflection and transmission.
+//
+// Source: Walter et al. 2007 (GGX, rough refraction), Heitz 2018 (visible normals), Kulla and Conty
+// 2017 (energy). Parameters are those of glTF 2.0's metallic-roughness material and its extensions.
+// A purely diffuse hit costs about 30 ns (construct, eval, sample), a rough dielectric 250 ns,
+// rough glass 400 ns.
 #pragma once
 
 #include <array>
@@ -38,8 +43,10 @@ struct SurfaceParameters {
   bool thin_walled = true;
   float clearcoat = 0.0f;
   float clearcoat_roughness = 0.0f;
-  float eta =
-      1.5f;  // index of refraction beyond the surface over that on wo's side, > 0; 0: F0 = 1
+  // Index of refraction beyond the surface over that on wo's side, > 0; 0: F0 = 1. Ratios of the
+  // indices that tables were made of are exact. A thin wall has the same index seen from either
+  // side.
+  float eta = 1.5f;
 };
 
 // f · |cosθ| and the density of sample(), per kind. Delta lobes have neither.
@@ -53,8 +60,9 @@ struct BsdfValue {
 struct BsdfSample {
   V3f wi;              // world space, unit
   Color weight{0.0f};  // f · |cosθ| / pdf of the sampled kind alone
-  float pdf = 0.0f;  // sr⁻¹, of the sampled kind, includes the probability of choosing it; delta:
-                     // that probability
+  // sr⁻¹, of the sampled kind, includes the probability of choosing it; delta: the probability of
+  // choosing that lobe.
+  float pdf = 0.0f;
   LobeKind kind = LobeKind::non_specular;
   bool delta = false;        // no density: eval and light sampling cannot find this direction
   bool transmitted = false;  // wi is on the other side of the surface
@@ -110,16 +118,16 @@ class Bsdf {
     AlbedoRow row;
     const AlbedoTable* table;
 
-    float reflectance(float cos_theta) const;  // directional albedo
-    float transmittance(
-        float cos_theta) const;  // what light of that direction keeps when it crosses
+    // Directional albedo, and what light of that direction keeps when it crosses.
+    float reflectance(float cos_theta) const;
+    float transmittance(float cos_theta) const;
   };
 
-  // The base's parts that follow from its single-bounce albedos at one direction.
+  // Single-bounce albedos of the base at one direction, and what follows from them: what its
+  // dielectric reflection leaves; what is neither reflected nor transmitted by one bounce.
   Albedo base_albedo(float cos_theta) const;
-  Color dielectric_remainder(const Albedo& a) const;  // what the dielectric reflection leaves
-  Color lost_in_glass(
-      const Albedo& a) const;  // what neither leaves by one bounce nor passes in one
+  Color dielectric_remainder(const Albedo& a) const;
+  Color lost_in_glass(const Albedo& a) const;
 
   using Weights = std::array<float, lobe_count>;  // albedos of the lobes as wo sees them
 
@@ -130,7 +138,8 @@ class Bsdf {
   void set_glass_spread(const SurfaceParameters& surface, const Albedo& at_wo,
                         const Albedo& average, Weights& weights);
   void couple_with_coat(const Color& remainder, const Albedo& average);
-  void set_lobes(const SurfaceParameters& surface, float specular_roughness, Weights& weights);
+  void set_lobes(const SurfaceParameters& surface, float specular_roughness,
+                 const Weights& weights);
 
   float coat_transmittance(const V3f& wi) const;
   float reflected_share(const Color& reflected, const Color& passed) const;

@@ -74,8 +74,8 @@ V3f Bsdf::sample_spread(const AlbedoTable& table, const V2f& u) const {
   if (u.x < 0.5f) return sample_cosine_hemisphere(V2f(2.0f * u.x, u.y));
   const float z = table.sample_loss(2.0f * u.x - 1.0f, row_);
   const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
-  const float phi = 2.0f * pi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
+  const V2f azimuth = unit_circle(u.y);
+  return {r * azimuth.x, r * azimuth.y, z};
 }
 
 // A facet that wo sees, and on it reflection or transmission.

@@ -59,12 +59,12 @@ inline float reflected_facet_pdf(float density, float cos_o, float root_o) {
 // 2018. Source: Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps".
 inline V3f sample_visible_normal(const V3f& wo, float alpha, const V2f& u) {
   const V3f o = V3f(alpha * wo.x, alpha * wo.y, wo.z).normalized();
-  const float phi = 2.0f * pi * u.x;
+  const V2f azimuth = unit_circle(u.x);
   const float up =
       (1.0f - u.y) * (1.0f + o.z);  // height of the cap's point above its lower edge, > 0
   const float z = up - o.z;
   const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
-  return V3f(alpha * (o.x + r * std::cos(phi)), alpha * (o.y + r * std::sin(phi)), up).normalized();
+  return V3f(alpha * (o.x + r * azimuth.x), alpha * (o.y + r * azimuth.y), up).normalized();
 }
 
 inline V3f reflect(const V3f& wo, const V3f& h) {

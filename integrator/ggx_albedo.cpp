@@ -32,18 +32,6 @@ Lattice make_lattice() {
   return lattice;
 }
 
-Albedo smooth_albedo(float cos_o, float eta) {
-  const FresnelShape shape = fresnel_shape(cos_o, eta);
-  Albedo albedo;
-  albedo.reflected = 1.0f;
-  albedo.reflected_exact = shape.exact;
-  albedo.reflected_schlick = shape.schlick;
-  albedo.reflected_total = shape.total;
-  albedo.transmitted = 1.0f - shape.total;
-  albedo.transmitted_exact = shape.exact * (1.0f - shape.total);
-  return albedo;
-}
-
 }  // namespace
 
 Albedo ggx_albedo(float cos_o, float alpha, float eta) {

@@ -2,6 +2,8 @@
 // again.
 #pragma once
 
+#include "integrator/fresnel.h"
+
 namespace lumivec {
 
 // Directional albedos ∫ f |cosθ| dω of a boundary, one for each of the functions that a Fresnel
@@ -16,6 +18,19 @@ struct alignas(32) Albedo {
   float transmitted_exact = 0.0f;  // of T = t there
   float unused[2] = {0.0f, 0.0f};
 };
+
+// Of a smooth boundary; cos_o in [0, 1], eta as for fresnel_shape.
+inline Albedo smooth_albedo(float cos_o, float eta) {
+  const FresnelShape shape = fresnel_shape(cos_o, eta);
+  Albedo albedo;
+  albedo.reflected = 1.0f;
+  albedo.reflected_exact = shape.exact;
+  albedo.reflected_schlick = shape.schlick;
+  albedo.reflected_total = shape.total;
+  albedo.transmitted = 1.0f - shape.total;
+  albedo.transmitted_exact = shape.exact * (1.0f - shape.total);
+  return albedo;
+}
 
 // By quadrature over the visible normals, to about 1e-3. cos_o in [0, 1]; alpha 0 (smooth) to 1;
 // eta > 0. Reflection has height-correlated masking, transmission separable masking as in Walter et

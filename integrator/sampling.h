@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,24 +13,49 @@ namespace lumivec {
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 
+// sin x and cos x for |x| ≤ π/4, to 3e-8: Taylor's series, several times faster than the library's,
+// which take any x.
+inline float sin_of_octant(float x) {
+  const float y = x * x;
+  return x * (1.0f + y * (-1.0f / 6 + y * (1.0f / 120 + y * (-1.0f / 5040 + y * (1.0f / 362880)))));
+}
+inline float cos_of_octant(float x) {
+  const float y = x * x;
+  return 1.0f + y * (-1.0f / 2 + y * (1.0f / 24 + y * (-1.0f / 720 + y * (1.0f / 40320))));
+}
+
+// The point of the unit circle u of a turn, [0, 1), from the x axis to the y axis, to 1e-7.
+inline V2f unit_circle(float u) {
+  const float quarters = 4.0f * u;
+  const int nearest = static_cast<int>(quarters + 0.5f);
+  const float angle = (quarters - nearest) * (pi / 2.0f);
+  const std::array<float, 2> p = {cos_of_octant(angle), sin_of_octant(angle)};
+  constexpr std::array<float, 4> signs_x = {1.0f, -1.0f, -1.0f, 1.0f};
+  constexpr std::array<float, 4> signs_y = {1.0f, 1.0f, -1.0f, -1.0f};
+  return {signs_x[nearest & 3] * p[nearest & 1], signs_y[nearest & 3] * p[~nearest & 1]};
+}
+
 // Uniform on the unit disc, density 1/π; keeps neighbours in the square neighbours on the disc.
 // Source: Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square".
 inline V2f sample_disc(const V2f& u) {
   const float x = 2.0f * u.x - 1.0f;
   const float y = 2.0f * u.y - 1.0f;
-  if (x == 0.0f && y == 0.0f) return {0.0f, 0.0f};
   const bool wide = std::abs(x) > std::abs(y);
   const float r = wide ? x : y;
-  const float ratio = (wide ? y : x) / r * (pi / 4.0f);
-  const float s = std::sin(ratio);  // the sine of at most 45°, from which the cosine follows safely
-  const float c = std::sqrt(1.0f - s * s);
-  return wide ? V2f(r * c, r * s) : V2f(r * s, r * c);
+  if (r == 0.0f) return {0.0f, 0.0f};
+  const float angle = (wide ? y : x) / r * (pi / 4.0f);
+  const float s = sin_of_octant(angle);
+  const float c = cos_of_octant(angle);
+  return {r * (wide ? c : s), r * (wide ? s : c)};
 }
 
 // Unit direction around +z, density cosθ/π sr⁻¹: the disc lifted to the hemisphere (Malley).
 inline V3f sample_cosine_hemisphere(const V2f& u) {
   const V2f d = sample_disc(u);
-  return {d.x, d.y, std::sqrt(std::max(0.0f, 1.0f - d.x * d.x - d.y * d.y))};
+  // sample_disc keeps squares around the centre as circles, so that the radius is known before the
+  // point is.
+  const float r = std::max(std::abs(2.0f * u.x - 1.0f), std::abs(2.0f * u.y - 1.0f));
+  return {d.x, d.y, std::sqrt((1.0f - r) * (1.0f + r))};
 }
 
 inline float cosine_hemisphere_pdf(float cos_theta) {

@@ -121,6 +121,13 @@ TEST(AlbedoTables, UnknownIndexFallsBackToTheNearest) {
   tables.nearest(0.0f);
 }
 
+TEST(AlbedoTables, BoundariesBetweenTwoMediaAreKnown) {
+  const std::vector<float> indices = {1.33f, 2.42f};
+  const AlbedoTables tables(indices);
+  EXPECT_EQ(tables.nearest(1.33f / 2.42f).eta(), 1.33f / 2.42f);
+  EXPECT_EQ(tables.nearest(2.42f / 1.33f).eta(), 2.42f / 1.33f);
+}
+
 TEST(AlbedoTables, OddIndicesAreIgnored) {
   const std::vector<float> indices = {0.0f,
                                       0.0f,
