@@ -196,7 +196,7 @@ TEST(BsdfChi2, UncoatedSurfaces) {
   std::vector<NamedSurface> all;
   for (const float roughness : {0.0f, 0.035f, 0.2f, 0.7f})
     for (const NamedSurface& s : white_surfaces(roughness)) all.push_back(s);
-  expect_agreement(all, {0.1f, 0.78f}, 7, 60000);
+  expect_agreement(all, {0.1f, 0.78f}, 7, 40000);
 }
 
 TEST(BsdfChi2, CoatedSurfaces) {
@@ -204,7 +204,7 @@ TEST(BsdfChi2, CoatedSurfaces) {
   for (const auto& [roughness, coat_roughness] :
        {std::pair(0.1f, 0.0f), {0.5f, 0.1f}, {0.12f, 0.6f}})
     for (const NamedSurface& s : coated_surfaces(roughness, coat_roughness, 0.7f)) all.push_back(s);
-  expect_agreement(all, {0.5f}, 8, 60000);
+  expect_agreement(all, {0.5f}, 8, 40000);
 }
 
 TEST(BsdfChi2, BentNormals) {
@@ -215,11 +215,11 @@ TEST(BsdfChi2, BentNormals) {
     all.back().surface.normal = (up + 0.5f * random.direction()).normalized();
     all.back().surface.coat_normal = (up + 0.5f * random.direction()).normalized();
   }
-  expect_agreement(all, {0.3f}, 10, 60000);
+  expect_agreement(all, {0.3f}, 10, 40000);
 }
 
 TEST(BsdfChi2, NormalAndGrazingViews) {
-  expect_agreement(white_surfaces(0.3f), {0.01f, 1.0f}, 12, 60000);
+  expect_agreement(white_surfaces(0.3f), {0.01f, 1.0f}, 12, 40000);
 }
 
 // Discrete probabilities are what the samples' pdf says they are.
