@@ -37,8 +37,7 @@ inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
   RTCIntersectArguments arguments = detail::intersect_arguments(context);
   rtcIntersect1(scene, &ray, &arguments);
 }
-inline void intersect8(const int* valid, RTCScene scene, QueryContext& context,
-                        RTCRayHit8& rays) {
+inline void intersect8(const int* valid, RTCScene scene, QueryContext& context, RTCRayHit8& rays) {
   RTCIntersectArguments arguments = detail::intersect_arguments(context);
   rtcIntersect8(valid, scene, &rays, &arguments);
 }
@@ -58,8 +57,7 @@ inline void init(QueryContext& context) {
 inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
   rtcIntersect1(scene, &context, &ray);
 }
-inline void intersect8(const int* valid, RTCScene scene, QueryContext& context,
-                        RTCRayHit8& rays) {
+inline void intersect8(const int* valid, RTCScene scene, QueryContext& context, RTCRayHit8& rays) {
   rtcIntersect8(valid, scene, &context, &rays);
 }
 inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {

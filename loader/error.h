@@ -1,4 +1,5 @@
-// The one exception of the loader: a file that cannot be loaded, said in a line that its author can act on.
+// The one exception of the loader: a file that cannot be loaded, said in a line that its author can
+// act on.
 #pragma once
 
 #include <stdexcept>
@@ -9,11 +10,12 @@ namespace lumivec {
 // what() reads "FILE: WHERE: PROBLEM; REMEDY", without the parts that are empty.
 class SceneError : public std::runtime_error {
  public:
-  // file: as the user named it. where: line and column, a glTF path such as /meshes/3/primitives/0, or empty.
-  // problem: what is wrong, with the numbers. remedy: what to do about it.
+  // file: as the user named it. where: line and column, a glTF path such as /meshes/3/primitives/0,
+  // or empty. problem: what is wrong, with the numbers. remedy: what to do about it.
   SceneError(std::string file, std::string where, std::string problem, std::string remedy)
       : std::runtime_error(join(file, where, problem, remedy)),
-        file_(std::move(file)), where_(std::move(where)) {}
+        file_(std::move(file)),
+        where_(std::move(where)) {}
 
   const std::string& file() const { return file_; }
   const std::string& where() const { return where_; }

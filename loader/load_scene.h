@@ -1,4 +1,5 @@
-// Scene files to Scene: picks the reader by content, and reports what a file asks for and does not get.
+// Scene files to Scene: picks the reader by content, and reports what a file asks for and does not
+// get.
 #pragma once
 
 #include <cstdint>
@@ -11,35 +12,38 @@
 namespace lumivec {
 
 struct LoadOptions {
-  std::string scene;                    // name or index of the scene in a file of several; empty: the file's default
-  bool allow_outside_files = false;     // may files outside the scene file's folder be read?
-  std::uint64_t max_bytes = std::uint64_t{8} << 30;  // bound on the sum of what is decoded: geometry, images
+  std::string scene;  // name or index of the scene in a file of several; empty: the file's default
+  bool allow_outside_files = false;  // may files outside the scene file's folder be read?
+  std::uint64_t max_bytes = std::uint64_t{8}
+                            << 30;  // bound on the sum of what is decoded: geometry, images
 };
 
 // One thing that a file holds and the picture will not show, or shows differently.
 struct LoadWarning {
-  std::string where;    // glTF path, or line and column
+  std::string where;  // glTF path, or line and column
   std::string message;
 };
 
 struct LoadReport {
-  std::string format;                     // "glTF 2.0", "glTF 2.0 binary"
-  std::string generator;                  // as the file says
-  std::vector<std::string> scene_names;   // all scenes of the file, in order
-  int scene = 0;                          // which one was loaded
+  std::string format;                    // "glTF 2.0", "glTF 2.0 binary"
+  std::string generator;                 // as the file says
+  std::vector<std::string> scene_names;  // all scenes of the file, in order
+  int scene = 0;                         // which one was loaded
   std::vector<std::string> extensions_used;
-  std::vector<std::string> extensions_ignored;   // used, not required, not supported
-  std::vector<LoadWarning> warnings;      // each worth one line to the user
-  bool default_camera = false;            // the file had none; Scene::cameras[0] was made to frame everything
+  std::vector<std::string> extensions_ignored;  // used, not required, not supported
+  std::vector<LoadWarning> warnings;            // each worth one line to the user
+  bool default_camera = false;  // the file had none; Scene::cameras[0] was made to frame everything
 };
 
-// Reads a scene. Throws SceneError if the file cannot be read, is malformed, reaches outside its folder against
-// options, or requires what is not supported. Whatever returns is consistent: every index in range, every number
-// finite, every transform invertible.
+// Reads a scene. Throws SceneError if the file cannot be read, is malformed, reaches outside its
+// folder against options, or requires what is not supported. Whatever returns is consistent: every
+// index in range, every number finite, every transform invertible.
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options, LoadReport& report);
 
-// Replaces the scene's environment by a latitude-longitude picture (.hdr, .exr, anything OpenImageIO reads; sRGB
-// decoded if the file is 8 bit). strength multiplies its radiance; rotation in radians about +Y. Throws SceneError.
-void load_environment(const std::filesystem::path& file, float strength, float rotation, Scene& scene);
+// Replaces the scene's environment by a latitude-longitude picture (.hdr, .exr, anything
+// OpenImageIO reads; sRGB decoded if the file is 8 bit). strength multiplies its radiance; rotation
+// in radians about +Y. Throws SceneError.
+void load_environment(const std::filesystem::path& file, float strength, float rotation,
+                      Scene& scene);
 
 }  // namespace lumivec

@@ -1,11 +1,14 @@
-// The scene contract: everything the integrator may know of a scene, and nothing of the file it came from.
+// The scene contract: everything the integrator may know of a scene, and nothing of the file it
+// came from.
 //
 // Plain data, no behaviour. Conventions, everywhere:
 //   - right-handed coordinates; distances in scene units (glTF: metres); angles in radians;
 //   - colours are linear Rec. 709 / D65 triples;
-//   - light is in one consistent photometric system: radiance in cd·m⁻² (nit), intensity in cd, irradiance in lx.
+//   - light is in one consistent photometric system: radiance in cd·m⁻² (nit), intensity in cd,
+//   irradiance in lx.
 //     A file that speaks of watts is taken over number for number: only ratios show in a picture;
-//   - transforms act on column vectors in the usual notation but are stored as Imath stores them (row vectors:
+//   - transforms act on column vectors in the usual notation but are stored as Imath stores them
+//   (row vectors:
 //     p' = p · M, translation in the last row), in double precision;
 //   - an index of -1 means "none".
 #pragma once
@@ -32,25 +35,30 @@ using Color = Imath::C3f;  // linear Rec. 709, or a dimensionless reflectance
 // A picture with four channels, row 0 at the top. Exactly one of the two arrays is filled.
 struct Image {
   std::string name;
-  int width = 0;                     // pixels
-  int height = 0;                    // pixels
-  std::vector<std::uint8_t> rgba8;   // width × height × 4, encoded as TextureMap::encoding says, alpha not premultiplied
-  std::vector<float> rgba32f;        // width × height × 4, likewise; radiance for environments
+  int width = 0;   // pixels
+  int height = 0;  // pixels
+  std::vector<std::uint8_t>
+      rgba8;  // width × height × 4, encoded as TextureMap::encoding says, alpha not premultiplied
+  std::vector<float> rgba32f;  // width × height × 4, likewise; radiance for environments
 };
 
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 enum class Filter : std::uint8_t { nearest, linear };
-enum class Encoding : std::uint8_t { linear, srgb };  // of the colour channels; alpha is always linear
+enum class Encoding : std::uint8_t {
+  linear,
+  srgb
+};  // of the colour channels; alpha is always linear
 
-// How a surface reads an image. (u, v) = (0, 0) is the upper left corner of the upper left pixel; v grows downwards.
+// How a surface reads an image. (u, v) = (0, 0) is the upper left corner of the upper left pixel; v
+// grows downwards.
 struct TextureMap {
-  int image = -1;                       // index into Scene::images
-  int uv_set = 0;                       // index into Mesh::uvs
+  int image = -1;  // index into Scene::images
+  int uv_set = 0;  // index into Mesh::uvs
   Encoding encoding = Encoding::linear;
   Wrap wrap_u = Wrap::repeat;
   Wrap wrap_v = Wrap::repeat;
   Filter filter = Filter::linear;
-  M33f uv_transform;                    // row vectors: (u, v, 1) · uv_transform; identity by default
+  M33f uv_transform;  // row vectors: (u, v, 1) · uv_transform; identity by default
 };
 
 enum class AlphaMode : std::uint8_t {
@@ -59,59 +67,70 @@ enum class AlphaMode : std::uint8_t {
   blend    // the surface covers the share alpha of what lies behind it
 };
 
-// A metallic-roughness surface with coat, transmission and absorption. Each map multiplies its factor.
+// A metallic-roughness surface with coat, transmission and absorption. Each map multiplies its
+// factor.
 struct Material {
   std::string name;
 
-  Color base_color{1.0f};            // reflectance (diffuse), F0 (metal), or tint of transmitted light
-  float opacity = 1.0f;              // alpha factor, [0, 1]
-  TextureMap base_color_map;         // RGB × base_color, A × opacity
-  bool vertex_colors = true;         // Mesh::colors, where present, multiply base_color and opacity
+  Color base_color{1.0f};     // reflectance (diffuse), F0 (metal), or tint of transmitted light
+  float opacity = 1.0f;       // alpha factor, [0, 1]
+  TextureMap base_color_map;  // RGB × base_color, A × opacity
+  bool vertex_colors = true;  // Mesh::colors, where present, multiply base_color and opacity
   AlphaMode alpha_mode = AlphaMode::opaque;
-  float alpha_cutoff = 0.5f;         // for AlphaMode::mask
+  float alpha_cutoff = 0.5f;  // for AlphaMode::mask
 
-  float metallic = 0.0f;             // [0, 1]
-  float roughness = 1.0f;            // perceptual, [0, 1]; GGX α = roughness²
-  TextureMap metallic_roughness_map; // G × roughness, B × metallic
+  float metallic = 0.0f;              // [0, 1]
+  float roughness = 1.0f;             // perceptual, [0, 1]; GGX α = roughness²
+  TextureMap metallic_roughness_map;  // G × roughness, B × metallic
 
-  TextureMap normal_map;             // tangent space, RGB = (n + 1) / 2, +Y up
-  float normal_scale = 1.0f;         // multiplies the map's x and y
+  TextureMap normal_map;      // tangent space, RGB = (n + 1) / 2, +Y up
+  float normal_scale = 1.0f;  // multiplies the map's x and y
 
-  Color emission{0.0f};              // radiance, cd·m⁻²; leaves the front side, and the back of double-sided surfaces
+  Color emission{
+      0.0f};  // radiance, cd·m⁻²; leaves the front side, and the back of double-sided surfaces
   TextureMap emission_map;
 
-  bool double_sided = false;         // one-sided surfaces are still opaque to light from behind; they emit in front only
-  bool unlit = false;                // base_color is shown as radiance and reflects nothing
+  bool double_sided =
+      false;  // one-sided surfaces are still opaque to light from behind; they emit in front only
+  bool unlit = false;  // base_color is shown as radiance and reflects nothing
 
-  float ior = 1.5f;                  // index of refraction of the dielectric, ≥ 1; 0 means: reflects everything (F0 = 1)
-  float specular = 1.0f;             // strength of the dielectric reflection, [0, 1]; 0 makes it purely diffuse
-  TextureMap specular_map;           // A × specular
-  Color specular_color{1.0f};        // tint of the dielectric's F0, ≥ 0
-  TextureMap specular_color_map;     // RGB × specular_color
+  float ior =
+      1.5f;  // index of refraction of the dielectric, ≥ 1; 0 means: reflects everything (F0 = 1)
+  float specular =
+      1.0f;  // strength of the dielectric reflection, [0, 1]; 0 makes it purely diffuse
+  TextureMap specular_map;        // A × specular
+  Color specular_color{1.0f};     // tint of the dielectric's F0, ≥ 0
+  TextureMap specular_color_map;  // RGB × specular_color
 
-  float transmission = 0.0f;         // share of the non-reflected light that passes instead of being diffused, [0, 1]
-  TextureMap transmission_map;       // R × transmission
-  bool thin_walled = true;           // true: an infinitely thin sheet, does not bend light; false: the boundary of a volume
-  float attenuation_distance = std::numeric_limits<float>::infinity();  // scene units, > 0: where attenuation_color is reached
-  Color attenuation_color{1.0f};     // transmittance after attenuation_distance, (0, 1]
+  float transmission =
+      0.0f;  // share of the non-reflected light that passes instead of being diffused, [0, 1]
+  TextureMap transmission_map;  // R × transmission
+  bool thin_walled =
+      true;  // true: an infinitely thin sheet, does not bend light; false: the boundary of a volume
+  float attenuation_distance =
+      std::numeric_limits<float>::infinity();  // scene units, > 0: where attenuation_color is
+                                               // reached
+  Color attenuation_color{1.0f};               // transmittance after attenuation_distance, (0, 1]
 
-  float clearcoat = 0.0f;            // strength of the coat (index 1.5), [0, 1]
-  TextureMap clearcoat_map;          // R × clearcoat
-  float clearcoat_roughness = 0.0f;  // perceptual, [0, 1]
+  float clearcoat = 0.0f;              // strength of the coat (index 1.5), [0, 1]
+  TextureMap clearcoat_map;            // R × clearcoat
+  float clearcoat_roughness = 0.0f;    // perceptual, [0, 1]
   TextureMap clearcoat_roughness_map;  // G × clearcoat_roughness
-  TextureMap clearcoat_normal_map;   // the coat's own; without it the coat has the geometry's normal
+  TextureMap clearcoat_normal_map;  // the coat's own; without it the coat has the geometry's normal
   float clearcoat_normal_scale = 1.0f;
 };
 
 // Indexed triangles in object space. Attribute arrays are empty or as long as positions.
 struct Mesh {
   std::string name;
-  std::vector<V3f> positions;              // scene units
-  std::vector<V3f> normals;                // unit length; empty: flat, from the triangles
-  std::vector<V4f> tangents;               // xyz unit length, w = ±1 handedness of the bitangent; empty: from the UVs
-  std::vector<std::vector<V2f>> uvs;       // one array per UV set
-  std::vector<V4f> colors;                 // linear RGBA
-  std::vector<Imath::Vec3<std::uint32_t>> triangles;  // vertex indices, each < positions.size(); counter-clockwise from the front
+  std::vector<V3f> positions;  // scene units
+  std::vector<V3f> normals;    // unit length; empty: flat, from the triangles
+  std::vector<V4f>
+      tangents;  // xyz unit length, w = ±1 handedness of the bitangent; empty: from the UVs
+  std::vector<std::vector<V2f>> uvs;  // one array per UV set
+  std::vector<V4f> colors;            // linear RGBA
+  std::vector<Imath::Vec3<std::uint32_t>>
+      triangles;  // vertex indices, each < positions.size(); counter-clockwise from the front
 };
 
 // Marks an instance that is an exact sphere and not a mesh.
@@ -123,11 +142,11 @@ struct Sphere {
 // A shape placed in the world. Exactly one of mesh and sphere is set.
 struct Instance {
   std::string name;
-  int mesh = -1;             // index into Scene::meshes
-  int sphere = -1;           // index into Scene::spheres
-  int material = -1;         // index into Scene::materials; -1: the default Material
-  int node = -1;             // index into Scene::nodes, for animation
-  M44d object_to_world;      // affine, invertible; may mirror and scale unevenly
+  int mesh = -1;         // index into Scene::meshes
+  int sphere = -1;       // index into Scene::spheres
+  int material = -1;     // index into Scene::materials; -1: the default Material
+  int node = -1;         // index into Scene::nodes, for animation
+  M44d object_to_world;  // affine, invertible; may mirror and scale unevenly
 };
 
 enum class LightKind : std::uint8_t { point, spot, directional };
@@ -136,11 +155,14 @@ enum class LightKind : std::uint8_t { point, spot, directional };
 struct Light {
   std::string name;
   LightKind kind = LightKind::point;
-  Color intensity{1.0f};      // point, spot: luminous intensity, cd; directional: illuminance on a facing surface, lx
-  float inner_cone = 0.0f;    // spot: half angle of full intensity, radians
-  float outer_cone = 0.785398163f;  // spot: half angle beyond which it is dark, radians, > inner_cone, ≤ π/2
-  float range = std::numeric_limits<float>::infinity();  // scene units; informative only: light falls off with the square
-  M44d object_to_world;       // position from the translation; shines along object -Z; scale is ignored
+  Color intensity{1.0f};    // point, spot: luminous intensity, cd; directional: illuminance on a
+                            // facing surface, lx
+  float inner_cone = 0.0f;  // spot: half angle of full intensity, radians
+  float outer_cone =
+      0.785398163f;  // spot: half angle beyond which it is dark, radians, > inner_cone, ≤ π/2
+  float range = std::numeric_limits<float>::infinity();  // scene units; informative only: light
+                                                         // falls off with the square
+  M44d object_to_world;  // position from the translation; shines along object -Z; scale is ignored
   int node = -1;
 };
 
@@ -154,24 +176,26 @@ struct Camera {
   float aspect = 0.0f;        // width / height the file asks for; 0: whatever the picture has
   float xmag = 1.0f;          // orthographic: half width, scene units
   float ymag = 1.0f;          // orthographic: half height, scene units
-  float znear = 0.0f;         // scene units along the view axis; nearer surfaces are not seen by the eye
+  float znear = 0.0f;  // scene units along the view axis; nearer surfaces are not seen by the eye
   float zfar = std::numeric_limits<float>::infinity();
-  M44d camera_to_world;       // rigid up to scale; scale is ignored
+  M44d camera_to_world;  // rigid up to scale; scale is ignored
   int node = -1;
 };
 
-// Light from infinitely far away. Latitude-longitude map: the centre column looks along -Z, +Y is the top row,
-// columns grow towards +X. Turned by rotation about +Y, counter-clockwise seen from above.
+// Light from infinitely far away. Latitude-longitude map: the centre column looks along -Z, +Y is
+// the top row, columns grow towards +X. Turned by rotation about +Y, counter-clockwise seen from
+// above.
 struct Environment {
-  int image = -1;             // index into Scene::images (rgba32f); -1: constant
-  Color radiance{0.0f};       // cd·m⁻²; multiplies the image, or is the constant
-  float rotation = 0.0f;      // radians
+  int image = -1;         // index into Scene::images (rgba32f); -1: constant
+  Color radiance{0.0f};   // cd·m⁻²; multiplies the image, or is the constant
+  float rotation = 0.0f;  // radians
 };
 
-// The transform tree, kept so that animation can move it. Instances, lights and cameras already hold world transforms.
+// The transform tree, kept so that animation can move it. Instances, lights and cameras already
+// hold world transforms.
 struct Node {
   std::string name;
-  int parent = -1;            // index into Scene::nodes
+  int parent = -1;  // index into Scene::nodes
   M44d local_to_parent;
 };
 
@@ -180,12 +204,13 @@ enum class Interpolation : std::uint8_t { step, linear, cubic_spline };
 
 // One animated property of one node, as data; nothing plays it yet.
 struct AnimationChannel {
-  int node = -1;                     // index into Scene::nodes
+  int node = -1;  // index into Scene::nodes
   AnimationTarget target = AnimationTarget::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<float> times;          // seconds, increasing
-  std::vector<float> values;         // 3 per key (translation: scene units; scale), 4 (rotation: quaternion x y z w) or one per
-                                     // morph weight; cubic_spline: in-tangent, value, out-tangent per key
+  std::vector<float> times;  // seconds, increasing
+  std::vector<float>
+      values;  // 3 per key (translation: scene units; scale), 4 (rotation: quaternion x y z w) or
+               // one per morph weight; cubic_spline: in-tangent, value, out-tangent per key
 };
 
 struct Animation {
@@ -201,7 +226,7 @@ struct Scene {
   std::vector<Sphere> spheres;
   std::vector<Instance> instances;
   std::vector<Light> lights;
-  std::vector<Camera> cameras;       // at least one after loading
+  std::vector<Camera> cameras;  // at least one after loading
   Environment environment;
   std::vector<Node> nodes;
   std::vector<Animation> animations;
