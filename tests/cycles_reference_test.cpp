@@ -19,8 +19,8 @@ constexpr int size = 512;
 constexpr int block = 16;
 constexpr int blocks_across = size / block;
 constexpr int first_block = 2, block_step = 5;  // of those that are compared, in both directions
-constexpr int block_samples = 1024;
-constexpr int picture_samples = 8;
+constexpr int block_samples = 400;
+constexpr int picture_samples = 4;
 // Blocks darker than this share of the picture's mean are judged as if they were as bright: in deep
 // shadow the other picture's own noise is above 1%.
 constexpr double dark_share = 0.25;
