@@ -1,6 +1,7 @@
 // Light that reaches a floor over mirrors and through glass, against closed forms: from lights that
 // eye paths find and from those that only light paths find.
-#include "test_scenes.h"
+#include "cornell_scene.h"
+#include "integrator/path_tracer.h"
 
 namespace lumivec::test {
 namespace {
@@ -212,6 +213,84 @@ TEST(caustic, no_light_twice) {
   Mean mean = receive(both, 1024).caustic;
   mean.error += plain.caustic.error;
   expect_received(mean, plain.caustic.value, 0.02, 0.05);
+}
+
+// All terms by eye paths alone, without the help of light paths; for lamps that they can find.
+Framebuffer render_by_eye_paths(const Scene& scene, const Camera& camera,
+                                const RenderSettings& settings) {
+  const TracedScene traced(scene, 0);
+  const Lights lights(traced);
+  const CameraView view(camera, traced, settings.width, settings.height);
+  const PathTracer tracer(traced, lights, view, settings);
+  Framebuffer picture;
+  picture.width = settings.width;
+  picture.height = settings.height;
+  for (std::vector<Color>& layer : picture.terms) layer.resize(picture.pixel_count(), Color(0.0f));
+  constexpr int tile_size = 16;
+  for (int y = 0; y < settings.height; y += tile_size) {
+    for (int x = 0; x < settings.width; x += tile_size) {
+      std::vector<PixelSums> sums(std::size_t(tile_size) * tile_size);
+      RenderStatistics statistics;
+      tracer.render_tile({x, y, tile_size, tile_size}, 0, std::uint32_t(settings.samples), sums,
+                         statistics);
+      for (int i = 0; i < tile_size * tile_size; ++i) {
+        const std::size_t pixel =
+            std::size_t((y + i / tile_size) * settings.width + x + i % tile_size);
+        for (std::size_t t = 0; t < term_count; ++t) {
+          picture.terms[t][pixel] =
+              sums[std::size_t(i)].terms[t] * (1.0f / static_cast<float>(settings.samples));
+        }
+      }
+    }
+  }
+  return picture;
+}
+
+// The division of labour between eye paths and light paths leaves nothing out and counts nothing
+// twice, in any term.
+void expect_same_by_eye_paths(const Scene& scene, const Camera& camera, int samples,
+                              double caustic_error) {
+  const Framebuffer alone = render_by_eye_paths(scene, camera, square(32, samples, 2));
+  const Framebuffer both = render_clean(scene, camera, square(32, samples));
+  for (std::size_t t = 0; t < term_count; ++t) {
+    SCOPED_TRACE(term_names[t]);
+    if (mean_of(both.terms[t]).value == 0.0 && mean_of(alone.terms[t]).value == 0.0) continue;
+    expect_same_mean(alone.terms[t], both.terms[t],
+                     Term(t) == Term::caustic ? caustic_error : 0.03);
+  }
+}
+
+TEST(caustic, eye_paths_alone_bring_the_same) {
+  expect_same_by_eye_paths(cornell_scene(), cornell_camera(), 256, 0.1);
+}
+
+TEST(caustic, eye_paths_alone_bring_the_same_through_absorbing_and_rough_glass) {
+  CornellOptions options;
+  options.specular = false;
+  Scene scene = cornell_scene(options);
+  add_sphere(scene, 0.3f, absorbing_glass(1.5f, {0.3f, 0.8f, 0.9f}, 0.4f),
+             translation({0.5, -0.5, -0.2}));
+  Material frosted = glass(1.4f);
+  frosted.roughness = 0.1f;
+  add_mesh(scene, box({-0.2f, -0.2f, -0.2f}, {0.2f, 0.2f, 0.2f}), frosted,
+           rotation({1, 1, 0}, 0.5) * translation({-0.5, 0.0, -0.3}));
+  Material varnish = diffuse({0.2f, 0.3f, 0.7f});
+  varnish.specular = 1.0f;
+  varnish.roughness = 0.05f;
+  add_mesh(scene, quad({-0.9f, -0.6f, -0.9f}, {1.2f, 0, 0}, {0, 1.2f, 0.1f}), varnish);
+  expect_same_by_eye_paths(scene, cornell_camera(), 256, 0.1);
+}
+
+TEST(caustic, eye_paths_alone_bring_the_same_between_bright_sheets) {
+  CornellOptions options;
+  options.specular = false;
+  Scene scene = cornell_scene(options);
+  Material sheet = thin_sheet({0.9f, 0.6f, 0.9f});
+  sheet.ior = 4.0f;
+  for (const float height : {-0.2f, 0.1f, 0.4f}) {
+    add_mesh(scene, quad({-0.8f, height, -0.8f}, {0, 0, 1.6f}, {1.6f, 0.1f, 0}), sheet);
+  }
+  expect_same_by_eye_paths(scene, cornell_camera(), 256, 0.1);
 }
 
 }  // namespace
