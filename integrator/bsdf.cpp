@@ -43,6 +43,28 @@ V3f bend_to_view(const V3f& n, const V3f& wo, const V3f& geometric_normal) {
   return (across.normalized() * std::sqrt(1.0f - target * target) + target * wo).normalized();
 }
 
+// The normal nearest to n about which wo is mirrored to above the surface: where interpolated or
+// mapped normals would send a reflection below it, smooth surfaces would be black. The mirror
+// direction is lifted to just above the surface, and the normal is half way from it to wo.
+V3f bend_to_reflect(const V3f& n, const V3f& wo, const V3f& geometric_normal) {
+  constexpr float lowest_elevation = 0.01f;
+  const float wo_elevation = wo.dot(geometric_normal);
+  const float lowest = std::min(lowest_elevation, 0.9f * wo_elevation);
+  const V3f mirrored = 2.0f * n.dot(wo) * n - wo;
+  const float elevation = mirrored.dot(geometric_normal);
+  if (elevation >= lowest) return n;
+  const V3f flat = mirrored - elevation * geometric_normal;
+  const float length2 = flat.length2();
+  if (length2 <= 0.0f) return geometric_normal;
+  const V3f lifted =
+      flat * std::sqrt((1.0f - lowest * lowest) / length2) + lowest * geometric_normal;
+  const V3f half = wo + lifted;
+  const float half_length2 = half.length2();
+  // Opposite directions along the surface: halfway between them is the surface's own normal.
+  if (half_length2 < min_view_cosine * min_view_cosine) return geometric_normal;
+  return half / std::sqrt(half_length2);
+}
+
 // Reflectance of all bounces but the first, over what the first loses: with average facet
 // reflectance F and average single-bounce albedo E, the series F (1 − E) F E + … divided by 1 − E.
 // Source: Kulla and Conty 2017.
@@ -88,9 +110,12 @@ Color Bsdf::lost_in_glass(const Albedo& a) const {
 Bsdf::Bsdf(const SurfaceParameters& surface, const V3f& geometric_normal, const V3f& wo,
            const AlbedoTables& tables, float specular_roughness, Transport transport)
     : geometric_normal_(geometric_normal), wo_(wo) {
-  frame_ = make_frame(bend_to_view(surface.normal, wo, geometric_normal));
+  const V3f normal = bend_to_view(surface.normal, wo, geometric_normal);
   lambertian_ = surface.specular == 0.0f && surface.metallic == 0.0f &&
                 surface.transmission == 0.0f && surface.clearcoat == 0.0f;
+  frame_ = make_frame(lambertian_ ? normal
+                                  : bend_to_view(bend_to_reflect(normal, wo, geometric_normal), wo,
+                                                 geometric_normal));
   if (lambertian_) {
     diffuse_ = at_most_1(surface.base_color) * inv_pi;
     return;
@@ -110,7 +135,9 @@ void Bsdf::set_coat(const SurfaceParameters& surface, const AlbedoTables& tables
   coat_.strength = surface.clearcoat;
   coat_transmittance_wo_ = 1.0f;
   if (coat_.strength <= 0.0f) return;
-  coat_frame_ = make_frame(bend_to_view(surface.coat_normal, wo_, geometric_normal_));
+  const V3f normal = bend_to_view(surface.coat_normal, wo_, geometric_normal_);
+  coat_frame_ = make_frame(
+      bend_to_view(bend_to_reflect(normal, wo_, geometric_normal_), wo_, geometric_normal_));
   coat_local_wo_ = coat_frame_.to_local(wo_);
   const float roughness = std::min(surface.clearcoat_roughness, 1.0f);
   coat_.alpha = roughness * roughness;
@@ -285,20 +312,48 @@ void Bsdf::set_lobes(const SurfaceParameters& surface, float specular_roughness,
   const float scale = total > 0.0f ? 1.0f / total : 0.0f;
   const auto kind = [=](float roughness) {
     const bool specular = roughness < std::max(specular_roughness, delta_roughness);
-    return specular ? LobeKind::specular : LobeKind::non_specular;
+    if (specular) return LobeKind::specular;
+    return roughness < glossy_roughness ? LobeKind::glossy : LobeKind::broad;
   };
   const LobeKind base = kind(surface.roughness);
+  const LobeKind base_spread = base == LobeKind::specular ? base : LobeKind::broad;
   const bool smooth_coat = surface.clearcoat_roughness < delta_roughness;
   lobes_[coat] = {weights[coat] * scale, kind(surface.clearcoat_roughness), smooth_coat};
   lobes_[reflect] = {facets * scale, base, !rough_};
   lobes_[transmit] = {weights[transmit] * scale, LobeKind::specular, true};
-  lobes_[spread] = {weights[spread] * scale, base, false};
-  lobes_[spread_through] = {weights[spread_through] * scale, base, false};
-  lobes_[diffuse] = {weights[diffuse] * scale, LobeKind::non_specular, false};
+  lobes_[spread] = {weights[spread] * scale, base_spread, false};
+  lobes_[spread_through] = {weights[spread_through] * scale, base_spread, false};
+  lobes_[diffuse] = {weights[diffuse] * scale, LobeKind::broad, false};
+}
+
+template <typename Keep>
+Bsdf Bsdf::restricted(const Keep& keep) const {
+  Bsdf result = *this;
+  if (lambertian_) {
+    if (!keep(diffuse, LobeKind::broad)) result.diffuse_ = Color(0.0f);
+    return result;
+  }
+  float kept = 0.0f;
+  for (int lobe = 0; lobe < lobe_count; ++lobe) {
+    LobeState& state = result.lobes_[lobe];
+    if (!keep(static_cast<Lobe>(lobe), state.kind)) state.probability = 0.0f;
+    kept += state.probability;
+  }
+  const float scale = kept > 0.0f ? 1.0f / kept : 0.0f;
+  for (LobeState& state : result.lobes_) state.probability *= scale;
+  return result;
+}
+
+Bsdf Bsdf::without(LobeKind kind) const {
+  return restricted([=](Lobe, LobeKind k) { return k != kind; });
+}
+
+Bsdf Bsdf::without_diffuse() const {
+  return restricted([](Lobe lobe, LobeKind) { return lobe != diffuse; });
 }
 
 bool Bsdf::has(LobeKind kind) const {
-  if (lambertian_) return kind == LobeKind::non_specular && !is_black(diffuse_);
+  if (lambertian_) return kind == LobeKind::broad && !is_black(diffuse_);
   for (const LobeState& lobe : lobes_)
     if (lobe.probability > 0.0f && lobe.kind == kind) return true;
   return false;

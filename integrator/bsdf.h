@@ -1,10 +1,10 @@
 // How a surface scatters light at a point: coat over (metal | dielectric reflection over (diffuse |
 // transmission)).
 //
-// eval, pdf and sample agree with each other (χ²-tested). Every lobe has one kind, non-specular (D)
-// or specular (S), which decides the term that the light it scatters belongs to; the two kinds are
-// evaluated and sampled apart, so that a path's term follows from the kinds of its events.
-// Reciprocal; what does not absorb loses nothing but, under a coat, a few per cent of rough
+// eval, pdf and sample agree with each other (χ²-tested). Every lobe has one kind, non-specular (D:
+// broad or glossy) or specular (S), which decides the term that the light it scatters belongs to;
+// the kinds are evaluated and sampled apart, so that a path's term follows from the kinds of its
+// events. Reciprocal; what does not absorb loses nothing but, under a coat, a few per cent of rough
 // reflection and transmission.
 //
 // Source: Walter et al. 2007 (GGX, rough refraction), Heitz 2018 (visible normals), Kulla and Conty
@@ -23,7 +23,12 @@
 
 namespace lumivec {
 
-enum class LobeKind : std::uint8_t { non_specular, specular };
+// Broad and glossy lobes are the non-specular ones (D). Glossy are those that are sharp enough to
+// throw light in patches that paths from the eye find badly.
+enum class LobeKind : std::uint8_t { broad, glossy, specular };
+constexpr std::size_t lobe_kind_count = 3;
+// Lobes that are not specular are glossy below this perceptual roughness.
+constexpr float glossy_roughness = 0.35f;
 
 // Radiance is scaled by the squared ratio of indices where it crosses a boundary, importance (light
 // paths) is not.
@@ -51,10 +56,13 @@ struct SurfaceParameters {
 
 // f · |cosθ| and the density of sample(), per kind. Delta lobes have neither.
 struct BsdfValue {
-  Color non_specular{0.0f};
-  Color specular{0.0f};
-  float pdf_non_specular = 0.0f;  // sr⁻¹, includes the probability of choosing the kind
-  float pdf_specular = 0.0f;      // likewise
+  std::array<Color, lobe_kind_count> f_cos;
+  std::array<float, lobe_kind_count> pdf{};  // sr⁻¹, includes the probability of choosing the kind
+
+  BsdfValue() { f_cos.fill(Color(0.0f)); }
+  const Color& of(LobeKind kind) const { return f_cos[static_cast<std::size_t>(kind)]; }
+  float pdf_of(LobeKind kind) const { return pdf[static_cast<std::size_t>(kind)]; }
+  Color non_specular() const { return of(LobeKind::broad) + of(LobeKind::glossy); }
 };
 
 struct BsdfSample {
@@ -63,7 +71,7 @@ struct BsdfSample {
   // sr⁻¹, of the sampled kind, includes the probability of choosing it; delta: the probability of
   // choosing that lobe.
   float pdf = 0.0f;
-  LobeKind kind = LobeKind::non_specular;
+  LobeKind kind = LobeKind::broad;
   bool delta = false;        // no density: eval and light sampling cannot find this direction
   bool transmitted = false;  // wi is on the other side of the surface
 };
@@ -92,8 +100,17 @@ class Bsdf {
   // Draws a direction; u_lobe and u in [0, 1). False: absorbed, and the path ends there.
   bool sample(float u_lobe, const V2f& u, BsdfSample& sample) const;
 
+  // The same surface without the lobes of a kind, or without its diffuse lobe: eval leaves them out,
+  // sample never draws them.
+  Bsdf without(LobeKind kind) const;
+  Bsdf without_diffuse() const;
+
   // Whether any lobe of that kind is there, delta lobes included.
   bool has(LobeKind kind) const;
+  bool has_non_specular() const { return has(LobeKind::broad) || has(LobeKind::glossy); }
+
+  // Whether there is nothing but the diffuse lobe, with a constant f.
+  bool lambertian() const { return lambertian_; }
 
   // Whether eval can differ from 0: light sampling may find something here.
   bool has_non_delta() const;
@@ -144,6 +161,8 @@ class Bsdf {
   float coat_transmittance(const V3f& wi) const;
   float reflected_share(const Color& reflected, const Color& passed) const;
   Color passed(const FresnelShape& shape) const;
+  template <typename Keep>
+  Bsdf restricted(const Keep& keep) const;
   void add(BsdfValue& value, Lobe lobe, const Color& f_cos, float pdf) const;
   void eval_coat(const V3f& wi, BsdfValue& value) const;
   void eval_reflection(const V3f& wi, const V3f& local, BsdfValue& value) const;

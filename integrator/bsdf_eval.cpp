@@ -27,13 +27,9 @@ Color Bsdf::passed(const FresnelShape& shape) const {
 }
 
 void Bsdf::add(BsdfValue& value, Lobe lobe, const Color& f_cos, float pdf) const {
-  if (lobes_[lobe].kind == LobeKind::specular) {
-    value.specular += f_cos;
-    value.pdf_specular += lobes_[lobe].probability * pdf;
-  } else {
-    value.non_specular += f_cos;
-    value.pdf_non_specular += lobes_[lobe].probability * pdf;
-  }
+  const auto kind = static_cast<std::size_t>(lobes_[lobe].kind);
+  value.f_cos[kind] += f_cos;
+  value.pdf[kind] += lobes_[lobe].probability * pdf;
 }
 
 float Bsdf::spread_pdf(const AlbedoTable& table, AlbedoColumn column, float cos_theta) const {
@@ -46,8 +42,9 @@ BsdfValue Bsdf::eval(const V3f& wi) const {
   if (lambertian_) {
     const float cos_i = wi.dot(frame_.n);
     if (side <= 0.0f || cos_i <= 0.0f) return value;
-    value.non_specular = diffuse_ * cos_i;
-    value.pdf_non_specular = cos_i * inv_pi;
+    constexpr auto broad = static_cast<std::size_t>(LobeKind::broad);
+    value.f_cos[broad] = diffuse_ * cos_i;
+    value.pdf[broad] = cos_i * inv_pi;
     return value;
   }
   const V3f local = frame_.to_local(wi);

@@ -13,7 +13,7 @@ bool Bsdf::sample(float u_lobe, const V2f& u, BsdfSample& sample) const {
     sample.wi = frame_.to_world(local);
     sample.weight = diffuse_ * pi;
     sample.pdf = local.z * inv_pi;
-    sample.kind = LobeKind::non_specular;
+    sample.kind = LobeKind::broad;
     sample.transmitted = false;
     return local.z > 0.0f && sample.wi.dot(geometric_normal_) > 0.0f && !is_black(diffuse_);
   }
@@ -61,10 +61,9 @@ bool Bsdf::sample(float u_lobe, const V2f& u, BsdfSample& sample) const {
   sample.transmitted = sample.wi.dot(geometric_normal_) < 0.0f;
   if (sample.transmitted != transmitted) return false;
   const BsdfValue value = eval(sample.wi);
-  const bool specular = sample.kind == LobeKind::specular;
-  sample.pdf = specular ? value.pdf_specular : value.pdf_non_specular;
+  sample.pdf = value.pdf_of(sample.kind);
   if (!(sample.pdf > 0.0f)) return false;
-  sample.weight = (specular ? value.specular : value.non_specular) / sample.pdf;
+  sample.weight = value.of(sample.kind) / sample.pdf;
   return !is_black(sample.weight);
 }
 

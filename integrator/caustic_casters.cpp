@@ -1,4 +1,4 @@
-// Which parts of a scene can throw caustics: bounds of everything with a specular lobe.
+// Which parts of a scene can throw caustics: bounds of everything with a specular or glossy lobe.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,14 +12,31 @@ namespace {
 // neighbours.
 constexpr std::size_t max_casters = 32;
 
-// Whether a material has, or by a texture may have, a lobe that counts as specular.
-bool may_be_specular(const Material& m, float specular_roughness) {
-  if (m.unlit) return false;
-  const bool smooth = m.roughness < specular_roughness || m.metallic_roughness_map.image >= 0;
-  const bool reflects = m.specular > 0.0f || m.metallic > 0.0f || m.transmission > 0.0f;
-  const bool smooth_coat = m.clearcoat > 0.0f && (m.clearcoat_roughness < specular_roughness ||
-                                                  m.clearcoat_roughness_map.image >= 0);
-  return (smooth && reflects) || smooth_coat;
+// Paths toward casters that are at most glossy are drawn this much less often: their patches of
+// light are broad.
+constexpr float glossy_worth = 0.2f;
+
+// The least roughness that a factor and a map (its green channel) leave a lobe with.
+float least_roughness(const Scene& scene, float factor, const TextureMap& map) {
+  if (map.image < 0) return factor;
+  const Image& image = scene.images[std::size_t(map.image)];
+  if (image.rgba8.empty()) return 0.0f;
+  std::uint8_t least = 255;
+  for (std::size_t i = 1; i < image.rgba8.size(); i += 4) least = std::min(least, image.rgba8[i]);
+  return factor * static_cast<float>(least) / 255.0f;
+}
+
+// The least roughness of the lobes that can throw caustics; 1 where there are none.
+float sharpest_lobe(const Scene& scene, const Material& m) {
+  if (m.unlit) return 1.0f;
+  float sharpest = 1.0f;
+  if (m.specular > 0.0f || m.metallic > 0.0f || m.transmission > 0.0f)
+    sharpest = least_roughness(scene, m.roughness, m.metallic_roughness_map);
+  if (m.clearcoat > 0.0f) {
+    sharpest = std::min(sharpest,
+                        least_roughness(scene, m.clearcoat_roughness, m.clearcoat_roughness_map));
+  }
+  return sharpest;
 }
 
 BoundingSphere instance_bounds(const TracedScene& scene, int index) {
@@ -92,16 +109,32 @@ void group(BoundingSphere* begin, BoundingSphere* end, std::size_t parts,
 }  // namespace
 
 std::vector<BoundingSphere> caustic_casters(const TracedScene& scene, float specular_roughness) {
-  std::vector<BoundingSphere> all;
-  for (std::size_t i = 0; i < scene.instances().size(); ++i) {
-    if (!may_be_specular(*scene.instances()[i].material, specular_roughness)) continue;
-    const BoundingSphere bounds = instance_bounds(scene, static_cast<int>(i));
-    if (bounds.radius > 0.0f) all.push_back(bounds);
+  std::vector<float> sharpest;
+  for (const Material& m : scene.scene().materials) {
+    sharpest.push_back(sharpest_lobe(scene.scene(), m));
   }
-  if (all.size() <= max_casters) return all;
-  std::vector<BoundingSphere> joined;
-  group(all.data(), all.data() + all.size(), max_casters, joined);
-  return joined;
+  std::vector<BoundingSphere> casters;
+  const auto add = [&](float roughest, float least, float worth) {
+    std::vector<BoundingSphere> all;
+    for (std::size_t i = 0; i < scene.instances().size(); ++i) {
+      const int material = scene.scene().instances[i].material;
+      const float roughness = material < 0 ? 1.0f : sharpest[std::size_t(material)];
+      if (!(roughness < roughest) || roughness < least) continue;
+      const BoundingSphere bounds = instance_bounds(scene, static_cast<int>(i));
+      if (bounds.radius > 0.0f) all.push_back(bounds);
+    }
+    const std::size_t first = casters.size();
+    if (all.size() > max_casters) {
+      group(all.data(), all.data() + all.size(), max_casters, casters);
+    } else {
+      casters.insert(casters.end(), all.begin(), all.end());
+    }
+    for (std::size_t i = first; i < casters.size(); ++i) casters[i].worth = worth;
+  };
+  const float specular = std::max(specular_roughness, delta_roughness);
+  add(specular, 0.0f, 1.0f);
+  add(glossy_roughness, specular, glossy_worth);
+  return casters;
 }
 
 }  // namespace lumivec

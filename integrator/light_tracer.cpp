@@ -91,7 +91,7 @@ void LightTracer::add_source(Source source, float intensity, const V3f& position
     const float d2 = (c.center - position).length2(), r2 = c.radius * c.radius;
     const float solid_angle = d2 <= r2 ? 4.0f * pi : 2.0f * pi * (1.0f - std::sqrt(1.0f - r2 / d2));
     // Far casters lose their solid angle to rounding; they keep their chance by the plain quotient.
-    const float weight = std::max(solid_angle, d2 > r2 ? pi * r2 / d2 : 0.0f);
+    const float weight = c.worth * std::max(solid_angle, d2 > r2 ? pi * r2 / d2 : 0.0f);
     source.aim.push_back(weight);
     sum += weight;
   }
@@ -229,30 +229,17 @@ void LightTracer::trace_path(std::uint64_t path, std::vector<Splat>& splats,
   V3f origin = begin.origin, direction = begin.direction;
   Color weight(1.0f);
   MediumStack media;
-  bool bent = false;      // an S event other than straight passage through a thin wall has been
+  // Eye paths leave what comes of this path to it, whatever follows; or, patchy, if its last vertex
+  // is one of a broad lobe.
+  bool specular_caustic = false, patchy = false;
   bool diffused = false;  // a D event has been
+  bool bent = false;      // an S event other than straight passage through a thin wall has been
+  bool run = true;        // nothing but S and glossy D events have been
   for (int depth = 0; settings_.max_depth == 0 || depth < settings_.max_depth; ++depth) {
     const std::uint32_t ray_seed = hash_combine(hash_combine(seed, index), block);
-    RTCRayHit ray;
-    ray.ray.org_x = origin.x;
-    ray.ray.org_y = origin.y;
-    ray.ray.org_z = origin.z;
-    ray.ray.dir_x = direction.x;
-    ray.ray.dir_y = direction.y;
-    ray.ray.dir_z = direction.z;
-    ray.ray.tnear = 0.0f;
-    ray.ray.tfar = std::numeric_limits<float>::infinity();
-    ray.ray.time = 0.0f;
-    ray.ray.mask = ~0u;
-    ray.ray.id = 0;
-    ray.ray.flags = 0;
-    ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    TraceQuery query = scene_.query();
-    query.seeds = &ray_seed;
-    embree::intersect1(scene_.handle(), query.context, ray);
+    const RayHit hit =
+        scene_.intersect(origin, direction, 0.0f, std::numeric_limits<float>::infinity(), ray_seed);
     ++statistics.rays_scatter;
-    const RayHit hit = {ray.ray.tfar,   ray.hit.u,      ray.hit.v,
-                        ray.hit.geomID, ray.hit.primID, ray.hit.instID[0]};
     if (!hit.valid()) return;
     const SurfacePoint point = scene_.surface(hit, origin, direction);
     const Material& material = *point.material;
@@ -268,17 +255,28 @@ void LightTracer::trace_path(std::uint64_t path, std::vector<Splat>& splats,
     const V3f wo = -direction;
     const Bsdf bsdf(parameters, point.geometric_normal, wo, scene_.albedo_tables(),
                     settings_.specular_roughness, Transport::importance);
-    if (bent && bsdf.has(LobeKind::non_specular)) {
+    const bool caustic = bent && !diffused;
+    const Covered here = {patchy || specular_caustic || caustic || (run && diffused),
+                          specular_caustic || caustic};
+    if ((here.broad && bsdf.has(LobeKind::broad)) || (here.glossy && bsdf.has(LobeKind::glossy))) {
       const Term term = diffused ? Term::indirect : Term::caustic;
-      connect(point, parameters.normal, bsdf, wo, begin.flux * weight, media.top(), term, ray_seed,
-              splats, statistics);
+      connect(point, parameters.normal, bsdf, wo, begin.flux * weight, media.top(), term, here,
+              ray_seed, splats, statistics);
     }
     const std::array<float, 4> u = random();
     BsdfSample s;
-    if (!bsdf.sample(u[0], V2f(u[1], u[2]), s)) return;
-    if (s.kind == LobeKind::non_specular) {
-      if (!bent || (settings_.terms & term_bit(Term::indirect)) == 0) return;
+    // A broad event now would be none of this tracer's business.
+    const bool drawn = here.broad ? bsdf.sample(u[0], V2f(u[1], u[2]), s)
+                                  : bsdf.without(LobeKind::broad).sample(u[0], V2f(u[1], u[2]), s);
+    if (!drawn) return;
+    if (s.kind != LobeKind::specular) {
+      const bool broad = s.kind == LobeKind::broad;
+      specular_caustic = here.glossy;
+      patchy = patchy || (broad && here.broad);
+      run = run && !broad;
       diffused = true;
+      if (!(patchy || specular_caustic || run) || (settings_.terms & term_bit(Term::indirect)) == 0)
+        return;
     } else if (!(s.delta && s.transmitted && parameters.thin_walled)) {
       bent = true;
     }
@@ -296,17 +294,37 @@ void LightTracer::trace_path(std::uint64_t path, std::vector<Splat>& splats,
   }
 }
 
+// What the eye looks through (surface.h) hides nothing from it.
+bool LightTracer::visible_to_eye(const SurfacePoint& point, const V3f& to_eye, float distance,
+                                 std::uint32_t seed, RenderStatistics& statistics) const {
+  if (culled(point)) return false;
+  const V3f origin = offset_origin(point, to_eye);
+  const float end = camera_.visible_distance(point.position, distance) * eye_ray_end;
+  for (float near = 0.0f; near < end;) {
+    const RayHit hit = scene_.intersect(origin, to_eye, near, end, seed);
+    ++statistics.rays_shadow;
+    if (!hit.valid()) return true;
+    const SurfacePoint between = scene_.surface(hit, origin, to_eye);
+    if (!culled(*between.material, !between.front)) return false;
+    near = next_distance(hit.distance, between.error);
+  }
+  return true;
+}
+
 // Adds what a vertex sends toward the eye, if the eye sees it.
 void LightTracer::connect(const SurfacePoint& point, const V3f& shading_normal, const Bsdf& bsdf,
                           const V3f& wo, const Color& flux, const Material* medium, Term term,
-                          std::uint32_t seed, std::vector<Splat>& splats,
+                          Covered covered, std::uint32_t seed, std::vector<Splat>& splats,
                           RenderStatistics& statistics) const {
   if ((settings_.terms & term_bit(term)) == 0) return;
   V2f pixel;
   V3f to_eye;
   float distance, importance;
   if (!camera_.project(point.position, pixel, to_eye, distance, importance)) return;
-  const Color f = bsdf.eval(to_eye).non_specular;
+  const BsdfValue value_to_eye = bsdf.eval(to_eye);
+  Color f(0.0f);
+  if (covered.broad) f += value_to_eye.of(LobeKind::broad);
+  if (covered.glossy) f += value_to_eye.of(LobeKind::glossy);
   if (f == Color(0.0f)) return;
   Color value =
       flux * f *
@@ -317,25 +335,7 @@ void LightTracer::connect(const SurfacePoint& point, const V3f& shading_normal, 
     ++statistics.dropped[static_cast<std::size_t>(term)];
     return;
   }
-  const V3f origin = offset_origin(point, to_eye);
-  RTCRay ray;
-  ray.org_x = origin.x;
-  ray.org_y = origin.y;
-  ray.org_z = origin.z;
-  ray.dir_x = to_eye.x;
-  ray.dir_y = to_eye.y;
-  ray.dir_z = to_eye.z;
-  ray.tnear = 0.0f;
-  ray.tfar = camera_.visible_distance(point.position, distance) * eye_ray_end;
-  ray.time = 0.0f;
-  ray.mask = ~0u;
-  ray.id = 0;
-  ray.flags = 0;
-  TraceQuery query = scene_.query();
-  query.seeds = &seed;
-  embree::occluded1(scene_.handle(), query.context, ray);
-  ++statistics.rays_shadow;
-  if (ray.tfar < 0.0f) return;
+  if (!visible_to_eye(point, to_eye, distance, seed, statistics)) return;
   filter_.for_each_pixel(pixel, settings_.width, settings_.height, [&](int x, int y, float share) {
     const auto index = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(settings_.width) +
                        static_cast<std::uint32_t>(x);

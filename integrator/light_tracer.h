@@ -1,10 +1,11 @@
 // Light paths for what eye paths find badly or never: light from punctual and small lights that
-// comes to a non-specular surface over specular ones, E D … D S+ L. Paths start at the light toward
-// specular geometry, and each non-specular vertex that they reach afterwards is connected to the
-// eye.
+// comes to a non-specular surface over specular ones, E … D S+ L; and what comes to a broad lobe
+// over glossy and specular ones, and from there to the eye from a broad lobe, E B (… B)? (G|S)+ L,
+// in which B and G are the two kinds of D (bsdf.h). Paths start at the light toward surfaces that
+// have such lobes, and each later vertex is connected to the eye.
 //
-// The division of labour is exact: eye paths leave out just these paths (Lights::light_traced, and
-// after the last D an S event other than straight passage through a thin wall). What neither finds
+// The division of labour is exact: eye paths leave out just these paths (Lights::light_traced;
+// straight passage through a thin wall does not count as an S event). What neither finds
 // is light from a punctual light over a specular surface that the eye sees only in another specular
 // surface, E S … D S+ L. Source: Veach 1997, sections 4 and 5 (particle tracing, shading normals).
 #pragma once
@@ -29,9 +30,10 @@ struct Splat {
 struct BoundingSphere {
   V3f center{0.0f};  // traced space
   float radius = 0.0f;
+  float worth = 1.0f;  // of a path toward it, relative to others at the same solid angle
 };
 
-// Spheres around everything that may scatter light specularly; near ones are joined until there are
+// Spheres around everything that may have specular or glossy lobes; near ones are joined until there are
 // few.
 std::vector<BoundingSphere> caustic_casters(const TracedScene& scene, float specular_roughness);
 
@@ -63,6 +65,11 @@ class LightTracer {
     Color flux;  // radiance · cosine / density, or its analogue for punctual lights
   };
 
+  // Whether eye paths leave a path to light paths that goes on to the eye by a lobe of the kind.
+  struct Covered {
+    bool broad = false, glossy = false;
+  };
+
   void add_source(Source source, float intensity, const V3f& position);
   bool start(float u_source, const V2f& u_point, float u_aim, const V2f& u_direction,
              Start& start) const;
@@ -71,8 +78,10 @@ class LightTracer {
            float& pdf) const;
   void trace_path(std::uint64_t path, std::vector<Splat>& splats,
                   RenderStatistics& statistics) const;
+  bool visible_to_eye(const SurfacePoint& point, const V3f& to_eye, float distance,
+                      std::uint32_t seed, RenderStatistics& statistics) const;
   void connect(const SurfacePoint& point, const V3f& shading_normal, const Bsdf& bsdf,
-               const V3f& wo, const Color& flux, const Material* medium, Term term,
+               const V3f& wo, const Color& flux, const Material* medium, Term term, Covered covered,
                std::uint32_t seed, std::vector<Splat>& splats, RenderStatistics& statistics) const;
 
   const TracedScene& scene_;

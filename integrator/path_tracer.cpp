@@ -52,11 +52,32 @@ float power_heuristic(float taken, float other) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
-// Paths E D … whose last D is followed by a bending S event: light_tracer.h brings those that end
-// at certain lights.
-bool is_left_to_light_paths(Term term, bool bent) {
-  return bent && term != Term::emitted && term != Term::specular;
-}
+// What decides whether a path that now ended at certain lights would be left to light_tracer.h.
+struct CausticState {
+  bool scattered = false;  // a D event has been, and nothing specular before the first
+  bool broad = false;      // the first of them was one of a broad lobe
+  bool bent = false;       // since the last D: an S event other than straight through a thin wall
+  bool patchy = false;     // since the last broad D: such an S event or one of a glossy lobe
+
+  void event(LobeKind kind, bool straight, Term after) {
+    if (straight || after == Term::specular) return;
+    if (kind == LobeKind::specular) {
+      bent = scattered;
+      patchy = broad;
+      return;
+    }
+    patchy = kind == LobeKind::glossy && broad;
+    if (!scattered) broad = kind == LobeKind::broad;
+    scattered = true;
+    bent = false;
+  }
+
+  // After the events so far, and after one more of that kind.
+  bool left_to_light_paths() const { return bent || patchy; }
+  bool left_to_light_paths(LobeKind next) const {
+    return next == LobeKind::specular ? scattered : next == LobeKind::glossy && broad;
+  }
+};
 
 // The first vertex of a path, kept until all of the path's continuations have left it.
 struct Fork {
@@ -87,7 +108,7 @@ struct Lane {
       1.0f;  // product of squared ratios of indices: what throughput owes to refraction alone
   Term term = Term::emitted;
   MediumStack media;
-  bool bent = false;  // since the last D event: an S event other than straight through a thin wall
+  CausticState caustic;
 
   // How light sampling at the last vertex could have found what this ray finds.
   bool light_sampled = false;
@@ -96,7 +117,8 @@ struct Lane {
 
   bool shadow = false;
   V3f shadow_origin{0.0f}, shadow_target{0.0f};
-  Color shadow_light[2] = {Color(0.0f), Color(0.0f)};  // by LobeKind, if nothing is in between
+  // If nothing is in between: of non-specular and of specular lobes.
+  Color shadow_light[2] = {Color(0.0f), Color(0.0f)};
   Term shadow_term[2] = {Term::direct, Term::specular};
 
   std::array<Color, term_count> radiance;
@@ -300,6 +322,11 @@ class PathStream {
     }
     const SurfacePoint point = t_.scene_.surface(hit, lane.origin, lane.direction);
     const Material& material = *point.material;
+    if (lane.camera_ray && culled(point)) {
+      lane.near = next_distance(hit.distance, point.error);
+      lane.ended = lane.near >= lane.far;
+      return;
+    }
     absorb(lane, point, hit.distance);
 
     const Color emission = t_.scene_.emission(point);
@@ -341,7 +368,7 @@ class PathStream {
     const Fork& fork = *lane.fork;
     lane.depth = 0;
     lane.term = Term::emitted;
-    lane.bent = false;
+    lane.caustic = CausticState();
     lane.light_sampled = false;
     lane.radiance_scale = 1.0f;
     lane.throughput = fork.throughput;
@@ -362,7 +389,7 @@ class PathStream {
   }
 
   void add_emission(Lane& lane, const SurfacePoint& point, const Color& emission) {
-    if (is_left_to_light_paths(lane.term, lane.bent) && t_.lights_.light_traced(point)) return;
+    if (lane.caustic.left_to_light_paths() && t_.lights_.light_traced(point)) return;
     float weight = 1.0f;
     if (lane.light_sampled) {
       weight =
@@ -396,17 +423,22 @@ class PathStream {
     const BsdfValue f = bsdf.eval(light.direction);
     // Scattering competes with as many samples as there are continuations.
     const float trials = lane.depth == 0 ? static_cast<float>(splits) : 1.0f;
-    const float weight_d =
-        light.delta ? 1.0f : power_heuristic(light.pdf, trials * f.pdf_non_specular);
-    const float weight_s = light.delta ? 1.0f : power_heuristic(light.pdf, trials * f.pdf_specular);
+    const auto weighted = [&](LobeKind kind) {
+      if (light.light_traced && lane.caustic.left_to_light_paths(kind)) return Color(0.0f);
+      const float weight = light.delta ? 1.0f : power_heuristic(light.pdf, trials * f.pdf_of(kind));
+      return f.of(kind) * weight;
+    };
     Color arriving = lane.throughput * light.radiance * (1.0f / light.pdf);
     if (const Material* medium = lane.media.top())
       arriving *= volume_transmittance(*medium, light.distance);
-    lane.shadow_light[0] = arriving * f.non_specular * weight_d;
-    lane.shadow_light[1] = arriving * f.specular * weight_s;
-    if (light.light_traced && is_left_to_light_paths(lane.term, true))
-      lane.shadow_light[1] = Color(0.0f);
-    lane.shadow_term[0] = after_event(lane.term, LobeKind::non_specular);
+    lane.shadow_light[0] = weighted(LobeKind::broad);
+    lane.shadow_light[1] = Color(0.0f);
+    if (!bsdf.lambertian()) {
+      lane.shadow_light[0] += weighted(LobeKind::glossy);
+      lane.shadow_light[1] = arriving * weighted(LobeKind::specular);
+    }
+    lane.shadow_light[0] *= arriving;
+    lane.shadow_term[0] = after_event(lane.term, LobeKind::broad);
     lane.shadow_term[1] = after_event(lane.term, LobeKind::specular);
     const std::uint32_t found =
         (is_black(lane.shadow_light[0]) ? 0u : reachable_terms(lane.shadow_term[0])) |
@@ -428,11 +460,7 @@ class PathStream {
     const Term next = after_event(lane.term, s.kind);
     if ((reachable_terms(next) & t_.settings_.terms) == 0) return;
     lane.term = next;
-    if (s.kind == LobeKind::non_specular) {
-      lane.bent = false;
-    } else if (!straight_through) {
-      lane.bent = true;
-    }
+    lane.caustic.event(s.kind, straight_through, next);
     ++lane.depth;
     // Shadow rays pass thin walls too: light sampling at the last vertex competes with this path
     // still, weighted by the density there, as it is itself.

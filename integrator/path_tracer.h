@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "integrator/camera_view.h"
@@ -26,7 +27,8 @@ struct PixelSums {
   Color albedo{0.0f};
   V3f normal{0.0f};
   V3f position{0.0f};  // traced space, of the first sample
-  float depth = 0.0f;  // of the first sample; +inf: nothing was hit
+  float depth =
+      std::numeric_limits<float>::infinity();  // of the first sample; +inf: nothing was hit
   std::int32_t object = -1;
   std::uint32_t samples = 0;
 

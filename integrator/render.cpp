@@ -30,8 +30,6 @@ constexpr std::uint32_t max_pass_samples = 16;
 constexpr std::uint32_t first_checkpoint = 8;
 // The estimate is off by about a tenth either way: a target is only reached with that to spare.
 constexpr double estimate_margin = 0.9;
-constexpr std::uint32_t max_samples = 1u << 22;
-constexpr int max_size = 65536;
 // Light paths are traced in batches of this many; batches are added up in order, so that threads do
 // not show.
 constexpr std::uint32_t light_batch = 4096;
@@ -44,13 +42,14 @@ double seconds_since(Clock::time_point start) {
 }
 
 void check(const RenderSettings& s) {
-  if (s.width < 1 || s.height < 1 || s.width > max_size || s.height > max_size) {
+  if (s.width < 1 || s.height < 1 || s.width > max_picture_side || s.height > max_picture_side) {
     throw RenderError("a picture of " + std::to_string(s.width) + "x" + std::to_string(s.height) +
                       " pixels cannot be rendered; each side may have 1 to " +
-                      std::to_string(max_size));
+                      std::to_string(max_picture_side));
   }
-  if (s.samples < 0 || std::uint32_t(s.samples) > max_samples) {
-    throw RenderError("samples a pixel must be between 0 and " + std::to_string(max_samples));
+  if (s.samples < 0 || s.samples > max_picture_samples) {
+    throw RenderError("samples a pixel must be between 0 and " +
+                      std::to_string(max_picture_samples));
   }
   if (!(s.seconds >= 0.0) || !std::isfinite(s.seconds))
     throw RenderError("the time limit must be a positive number of seconds");
@@ -228,10 +227,10 @@ class StillRender {
         statistics_(statistics),
         progress_(progress),
         film_(settings) {
-    target_ =
-        settings.samples > 0
-            ? static_cast<std::uint32_t>(settings.samples)
-            : (settings.seconds > 0.0 || settings.error > 0.0 ? max_samples : default_samples);
+    target_ = settings.samples > 0 ? static_cast<std::uint32_t>(settings.samples)
+                                   : (settings.seconds > 0.0 || settings.error > 0.0
+                                          ? std::uint32_t{max_picture_samples}
+                                          : default_samples);
   }
 
   void run() {

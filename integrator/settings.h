@@ -18,13 +18,16 @@ constexpr std::array<std::string_view, term_count> term_names = {"emitted", "spe
 // independent.
 enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
 
+constexpr int max_picture_side = 65536;       // pixels
+constexpr int max_picture_samples = 1 << 22;  // a pixel
+
 struct RenderSettings {
-  int width = 512;   // pixels, [1, 65536]
-  int height = 512;  // pixels, [1, 65536]
+  int width = 512;   // pixels, [1, max_picture_side]
+  int height = 512;  // pixels, [1, max_picture_side]
   PixelFilter filter = PixelFilter::box;
 
   // What ends a render; each 0 means "not by this". With none set: 64 samples a pixel.
-  int samples = 0;       // samples a pixel
+  int samples = 0;       // samples a pixel, at most max_picture_samples
   double seconds = 0.0;  // wall-clock time for sampling
   double error = 0.0;    // target relative error, √relMSE, as a fraction (0.01 = 1%)
 

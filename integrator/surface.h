@@ -21,6 +21,21 @@ struct SurfacePoint {
   const Material* material = nullptr;
 };
 
+// Whether the eye looks through the surface: the back of a one-sided one, unless it bounds a volume
+// or is a thin wall. Light does not: it is stopped by either side.
+inline bool culled(const Material& material, bool front) {
+  return !front && !material.double_sided && material.transmission <= 0.0f;
+}
+inline bool culled(const SurfacePoint& p) {
+  return culled(*p.material, p.front);
+}
+
+// Where a ray goes on that a surface at this distance does not stop.
+inline float next_distance(float distance, float surface_error) {
+  constexpr float rounding = 1.0f + 0x1p-20f;
+  return distance * rounding + surface_error;
+}
+
 // Where a ray from p toward direction starts, so that it does not hit the surface it leaves.
 inline V3f offset_origin(const SurfacePoint& p, const V3f& direction) {
   const float side = direction.dot(p.geometric_normal) < 0.0f ? -p.error : p.error;

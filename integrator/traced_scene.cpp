@@ -364,4 +364,26 @@ TraceQuery TracedScene::query() const {
   return query;
 }
 
+RayHit TracedScene::intersect(const V3f& origin, const V3f& direction, float near, float far,
+                              std::uint32_t seed) const {
+  RTCRayHit ray;
+  ray.ray.org_x = origin.x;
+  ray.ray.org_y = origin.y;
+  ray.ray.org_z = origin.z;
+  ray.ray.dir_x = direction.x;
+  ray.ray.dir_y = direction.y;
+  ray.ray.dir_z = direction.z;
+  ray.ray.tnear = near;
+  ray.ray.tfar = far;
+  ray.ray.time = 0.0f;
+  ray.ray.mask = ~0u;
+  ray.ray.id = 0;
+  ray.ray.flags = 0;
+  ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  TraceQuery query_of_one = query();
+  query_of_one.seeds = &seed;
+  embree::intersect1(top_.get(), query_of_one.context, ray);
+  return {ray.ray.tfar, ray.hit.u, ray.hit.v, ray.hit.geomID, ray.hit.primID, ray.hit.instID[0]};
+}
+
 }  // namespace lumivec

@@ -78,6 +78,10 @@ class TracedScene {
   // Index into Scene::instances of what was hit.
   int instance_of(const RayHit& hit) const;
 
+  // The nearest hit of one ray origin + t · direction, near ≤ t ≤ far. seed: as in TraceQuery.
+  RayHit intersect(const V3f& origin, const V3f& direction, float near, float far,
+                   std::uint32_t seed) const;
+
   // The surface at a hit of the ray origin + t · direction.
   SurfacePoint surface(const RayHit& hit, const V3f& origin, const V3f& direction) const;
 

@@ -127,22 +127,22 @@ double least_probability(const SurfaceParameters& p, const V3f& wo, Random& rand
                                   p.clearcoat > 0.0f ? sharpness(p.clearcoat_roughness) : 1.0f);
   const PeakBins bins(wo, refracted(p, wo), 0.1f * std::pow(sharpest, 4.0f));
 
-  std::array<std::vector<Bin>, 2> kinds;
+  std::array<std::vector<Bin>, lobe_kind_count> kinds;
   for (auto& kind : kinds) kind.resize(PeakBins::count);
   for (int i = 0; i < samples; ++i) {
     BsdfSample s;
     if (bsdf.sample(random(), random.pair(), s) && !s.delta)
-      kinds[s.kind == LobeKind::specular][bins.index(s.wi)].observed += 1.0;
+      kinds[static_cast<std::size_t>(s.kind)][bins.index(s.wi)].observed += 1.0;
     for (int k = 0; k < proposals; ++k) {
       const V3f w = bins.propose(random);
       const BsdfValue v = bsdf.eval(w);
       const double scale = 1.0 / (double(proposals) * bins.density(w));
       // sample() returns no direction that carries no light.
-      const double d = v.non_specular == Color(0.0f) ? 0.0 : v.pdf_non_specular * scale;
-      const double sp = v.specular == Color(0.0f) ? 0.0 : v.pdf_specular * scale;
       const std::size_t bin = bins.index(w);
-      kinds[0][bin].add({0.0, d, d * d, d});
-      kinds[1][bin].add({0.0, sp, sp * sp, sp});
+      for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        const double d = v.f_cos[kind] == Color(0.0f) ? 0.0 : v.pdf[kind] * scale;
+        kinds[kind][bin].add({0.0, d, d * d, d});
+      }
     }
   }
   double least = 1.0;

@@ -95,9 +95,9 @@ TEST(BsdfFurnace, WithoutSpecularTheDiffuseLobeIsLambert) {
   for (const float coat : {0.0f, 1e-20f}) {  // the second takes the general path
     p.clearcoat = coat;
     const BsdfValue v = make_bsdf(p, at_cosine(0.6f)).eval(at_cosine(0.3f, 2.0f));
-    for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(v.non_specular[c], p.base_color[c] * 0.3f / pi);
-    EXPECT_EQ(v.specular, Color(0.0f));
-    EXPECT_NEAR(v.pdf_non_specular, 0.3f / pi, 1e-6f);
+    for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(v.non_specular()[c], p.base_color[c] * 0.3f / pi);
+    EXPECT_EQ(v.of(LobeKind::specular), Color(0.0f));
+    EXPECT_NEAR(v.pdf_of(LobeKind::broad), 0.3f / pi, 1e-6f);
   }
 }
 
@@ -154,9 +154,9 @@ TEST(BsdfFurnace, RadianceIsScaledByTheSquaredIndex) {
         const float factor = a.transmitted ? 1.0f / (eta * eta) : 1.0f;
         EXPECT_NEAR(b.weight.x, a.weight.x * factor, 1e-5f * a.weight.x);
         if (a.delta) continue;
-        EXPECT_NEAR(radiance.eval(a.wi).non_specular.x,
-                    importance.eval(a.wi).non_specular.x * factor,
-                    1e-5f * importance.eval(a.wi).non_specular.x);
+        EXPECT_NEAR(radiance.eval(a.wi).non_specular().x,
+                    importance.eval(a.wi).non_specular().x * factor,
+                    1e-5f * importance.eval(a.wi).non_specular().x);
       }
       EXPECT_GT(transmitted, 100);
     }

@@ -65,8 +65,8 @@ bool sound(float x) {
 }
 
 bool sound(const BsdfValue& v) {
-  return sound(v.non_specular) && sound(v.specular) && sound(v.pdf_non_specular) &&
-         sound(v.pdf_specular);
+  return std::all_of(v.f_cos.begin(), v.f_cos.end(), [](const Color& c) { return sound(c); }) &&
+         std::all_of(v.pdf.begin(), v.pdf.end(), [](float p) { return sound(p); });
 }
 
 std::string describe(const SurfaceParameters& p, const V3f& g, const V3f& wo) {

@@ -10,7 +10,7 @@ namespace lumivec {
 namespace {
 
 Color sum(const BsdfValue& v) {
-  return v.non_specular + v.specular;
+  return v.non_specular() + v.of(LobeKind::specular);
 }
 
 SurfaceParameters glass(float roughness, float eta) {
@@ -46,9 +46,8 @@ TEST(Bsdf, SampleTimesDensityIsEval) {
       BsdfSample sample;
       if (!bsdf.sample(random(), random.pair(), sample) || sample.delta) continue;
       const BsdfValue v = bsdf.eval(sample.wi);
-      const bool specular = sample.kind == LobeKind::specular;
-      const Color value = specular ? v.specular : v.non_specular;
-      EXPECT_FLOAT_EQ(sample.pdf, specular ? v.pdf_specular : v.pdf_non_specular) << s.name;
+      const Color value = v.of(sample.kind);
+      EXPECT_FLOAT_EQ(sample.pdf, v.pdf_of(sample.kind)) << s.name;
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(sample.weight[c] * sample.pdf, value[c], 1e-5f * value[c]) << s.name;
     }
@@ -77,13 +76,13 @@ TEST(Bsdf, IsReciprocal) {
       const BsdfValue b = back.eval(wo);
       const float eta2 = crosses && !s.surface.thin_walled ? s.surface.eta * s.surface.eta : 1.0f;
       for (int c = 0; c < 3; ++c)
-        for (const bool specular : {false, true}) {
-          const float f = (specular ? a.specular : a.non_specular)[c] / std::abs(wi.z) * eta2;
-          const float g = (specular ? b.specular : b.non_specular)[c] / wo.z;
+        for (const LobeKind kind : {LobeKind::broad, LobeKind::glossy, LobeKind::specular}) {
+          const float f = a.of(kind)[c] / std::abs(wi.z) * eta2;
+          const float g = b.of(kind)[c] / wo.z;
           // Half vectors of sharp lobes are only as good as single precision.
           const float tolerance = s.surface.roughness < 0.2f ? 2e-2f : 2e-3f;
           EXPECT_NEAR(f, g, tolerance * std::max(f, g) + 1e-5f)
-              << s.name << ", wo " << wo << ", wi " << wi << ", specular " << specular;
+              << s.name << ", wo " << wo << ", wi " << wi << ", kind " << int(kind);
         }
     }
   }
@@ -102,7 +101,8 @@ TEST(Bsdf, DeltaBelowTheLimitAndSpecularBelowTheThreshold) {
     p.roughness = roughness;
     const Bsdf bsdf = make_bsdf(p, wo);
     EXPECT_EQ(bsdf.has(LobeKind::specular), specular) << roughness;
-    EXPECT_EQ(bsdf.has(LobeKind::non_specular), !specular) << roughness;
+    EXPECT_EQ(bsdf.has_non_specular(), !specular) << roughness;
+    EXPECT_EQ(bsdf.has(LobeKind::glossy), !specular && roughness < glossy_roughness) << roughness;
     EXPECT_EQ(bsdf.has_non_delta(), !delta) << roughness;
     BsdfSample sample;
     ASSERT_TRUE(bsdf.sample(0.3f, V2f(0.3f, 0.1f), sample)) << roughness;
@@ -117,10 +117,10 @@ TEST(Bsdf, ThresholdOfOneMakesAllButDiffuseSpecular) {
   p.clearcoat_roughness = 0.8f;
   const Bsdf bsdf = make_bsdf(p, at_cosine(0.5f), 1.0f);
   const BsdfValue v = bsdf.eval(at_cosine(0.5f, 3.0f));
-  EXPECT_GT(v.specular.x, 0.0f);
-  EXPECT_GT(v.non_specular.x, 0.0f);
+  EXPECT_GT(v.of(LobeKind::specular).x, 0.0f);
+  EXPECT_GT(v.non_specular().x, 0.0f);
   EXPECT_TRUE(bsdf.has(LobeKind::specular));
-  EXPECT_TRUE(bsdf.has(LobeKind::non_specular));
+  EXPECT_TRUE(bsdf.has(LobeKind::broad));
 }
 
 // The threshold sorts light into terms and changes nothing of it.
@@ -167,8 +167,8 @@ TEST(Bsdf, ReflectsAndTransmitsByTheGeometricNormal) {
   Random random(24);
   for (const NamedSurface& s : coated_surfaces(0.5f, 0.4f)) {
     SurfaceParameters p = s.surface;
-    p.normal = V3f(0.6f, 0.0f, 0.8f);
-    p.coat_normal = V3f(0.0f, -0.6f, 0.8f);
+    p.normal = V3f(0.28f, 0.0f, 0.96f);
+    p.coat_normal = V3f(0.0f, -0.28f, 0.96f);
     const Bsdf bsdf = make_bsdf(p, at_cosine(0.7f));
     for (int i = 0; i < 200; ++i) {
       BsdfSample sample;
@@ -183,6 +183,26 @@ TEST(Bsdf, ReflectsAndTransmitsByTheGeometricNormal) {
       if (sides_differ) {
         EXPECT_EQ(sum(bsdf.eval(wi)), Color(0.0f)) << s.name;
       }
+    }
+  }
+}
+
+TEST(Bsdf, ShadingNormalThatMirrorsBelowTheSurfaceIsBent) {
+  SurfaceParameters p = surface(0.0f);
+  p.metallic = 1.0f;
+  Random random(25);
+  for (int i = 0; i < 1000; ++i) {
+    p.normal = random.direction();
+    p.normal.z = std::abs(p.normal.z) + 1e-3f;
+    p.normal = p.coat_normal = p.normal.normalized();
+    const V3f wo = at_cosine(0.002f + 0.998f * random());
+    const Bsdf bsdf = make_bsdf(p, wo);
+    BsdfSample sample;
+    ASSERT_TRUE(bsdf.sample(0.5f, random.pair(), sample)) << p.normal << wo;
+    EXPECT_GT(sample.wi.z, 0.0f);
+    const V3f mirrored = 2.0f * p.normal.dot(wo) * p.normal - wo;
+    if (p.normal.dot(wo) > 0.01f && mirrored.z > 0.02f) {
+      EXPECT_LT((sample.wi - mirrored).length(), 1e-4f) << "bent without need";
     }
   }
 }
@@ -222,7 +242,7 @@ TEST(Bsdf, BlackSurfaceAbsorbs) {
     const Bsdf bsdf = make_bsdf(p, at_cosine(0.6f));
     BsdfSample sample;
     EXPECT_FALSE(bsdf.sample(0.5f, V2f(0.4f, 0.6f), sample));
-    EXPECT_FALSE(bsdf.has(LobeKind::non_specular));
+    EXPECT_FALSE(bsdf.has(LobeKind::broad));
     EXPECT_FALSE(bsdf.has_non_delta());
   }
 }
@@ -368,7 +388,7 @@ TEST(Bsdf, CoatHasItsOwnNormalAndRoughness) {
   EXPECT_TRUE(sample.delta);
   EXPECT_EQ(sample.kind, LobeKind::specular);
   EXPECT_NEAR(sample.wi.x, 0.96f, 1e-6f);
-  EXPECT_TRUE(bsdf.has(LobeKind::non_specular));
+  EXPECT_TRUE(bsdf.has(LobeKind::broad));
 }
 
 }  // namespace

@@ -293,5 +293,22 @@ TEST(caustic, eye_paths_alone_bring_the_same_between_bright_sheets) {
   expect_same_by_eye_paths(scene, cornell_camera(), 256, 0.1);
 }
 
+TEST(caustic, eye_paths_alone_bring_the_same_over_glossy_metal) {
+  CornellOptions options;
+  options.specular = false;
+  Scene scene = cornell_scene(options);
+  Material brushed = diffuse({0.9f, 0.8f, 0.6f});
+  brushed.specular = 1.0f;
+  brushed.metallic = 1.0f;
+  brushed.roughness = 0.25f;
+  add_mesh(scene, box({-0.3f, -0.4f, -0.3f}, {0.3f, 0.4f, 0.3f}), brushed,
+           rotation({0, 1, 0}, 0.4) * translation({-0.4, -0.6, -0.3}));
+  Material mirror = brushed;
+  mirror.roughness = 0.0f;
+  add_mesh(scene, quad({0.9f, -0.9f, -0.9f}, {0, 0, 1.2f}, {-0.2f, 1.2f, 0}), mirror);
+  add_sphere(scene, 0.25f, glass(1.5f), translation({0.4, -0.7, 0.2}));
+  expect_same_by_eye_paths(scene, cornell_camera(), 512, 0.1);
+}
+
 }  // namespace
 }  // namespace lumivec::test

@@ -8,7 +8,7 @@ namespace lumivec::test {
 namespace {
 
 TEST(partition, events) {
-  constexpr LobeKind d = LobeKind::non_specular, s = LobeKind::specular;
+  constexpr LobeKind d = LobeKind::broad, s = LobeKind::specular;
   const auto path = [](std::initializer_list<LobeKind> events) {
     Term t = Term::emitted;
     for (const LobeKind kind : events) t = after_event(t, kind);
@@ -31,7 +31,7 @@ TEST(partition, reachable_terms) {
                                        Term::caustic};
   for (const Term from : all) {
     EXPECT_TRUE(reachable_terms(from) & term_bit(from));
-    for (const LobeKind kind : {LobeKind::non_specular, LobeKind::specular}) {
+    for (const LobeKind kind : {LobeKind::broad, LobeKind::specular}) {
       const std::uint32_t next = reachable_terms(after_event(from, kind));
       EXPECT_EQ(next & reachable_terms(from), next);
     }

@@ -100,8 +100,8 @@ PictureSize parse_size(const std::string& option, const std::string& text) {
                      "' is not a size; give WIDTHxHEIGHT in pixels, such as 640x480, or one "
                      "number for a square");
   }
-  return {int(parse_whole(option, width, 1, largest_side)),
-          int(parse_whole(option, height, 1, largest_side))};
+  return {int(parse_whole(option, width, 1, max_picture_side)),
+          int(parse_whole(option, height, 1, max_picture_side))};
 }
 
 PixelFilter parse_filter(const std::string& option, const std::string& text) {

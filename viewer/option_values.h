@@ -12,11 +12,9 @@
 namespace lumivec {
 
 struct PictureSize {
-  int width = 0;   // pixels, [1, 65536]
-  int height = 0;  // pixels, [1, 65536]
+  int width = 0;   // pixels, [1, max_picture_side]
+  int height = 0;  // pixels, [1, max_picture_side]
 };
-
-constexpr int largest_side = 65536;  // pixels
 
 // A finite number in [least, most].
 double parse_number(const std::string& option, const std::string& text, double least, double most);

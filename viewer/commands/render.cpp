@@ -83,6 +83,19 @@ void check_picture_size(const RenderOptions& options, const RenderSettings& sett
   }
 }
 
+// Whether anything could light the picture.
+bool has_light(const Scene& scene) {
+  const auto shines = [](const Color& c) { return c != Color(0.0f); };
+  return shines(scene.environment.radiance) ||
+         std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [&](const Light& light) { return shines(light.intensity); }) ||
+         std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) {
+           if (i.material < 0) return false;
+           const Material& material = scene.materials[std::size_t(i.material)];
+           return material.unlit || shines(material.emission);
+         });
+}
+
 Scene load(const RenderOptions& options, Warnings& warnings) {
   LoadReport report;
   Scene scene = load_scene(options.scene_file, options.load, report);
@@ -97,6 +110,11 @@ Scene load(const RenderOptions& options, Warnings& warnings) {
     const double radians = options.environment_rotation * std::numbers::pi / 180.0;
     load_environment(options.environment, float(options.environment_strength), float(radians),
                      scene);
+  }
+  if (!has_light(scene)) {
+    warnings.add(
+        options.scene_file.string() +
+        ": holds no light, so that the picture is black; light it with --environment FILE");
   }
   return scene;
 }
@@ -116,7 +134,7 @@ PictureSize size_for(const Camera& camera) {
     aspect = double(camera.xmag) / double(camera.ymag);
   }
   if (!(aspect > 0.0) || !std::isfinite(aspect)) aspect = 1.0;
-  const double width = std::clamp(std::round(usual_height * aspect), 1.0, double(largest_side));
+  const double width = std::clamp(std::round(usual_height * aspect), 1.0, double(max_picture_side));
   return {int(width), usual_height};
 }
 

@@ -52,8 +52,7 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
 void add_limit_options(CLI::App& app, RenderSettings& settings) {
   const std::string group = "Limits (whichever comes first; without any, 64 samples a pixel)";
   add_value_option(app, "--spp", "N", "Samples a pixel", [&settings](const std::string& text) {
-    constexpr std::uint64_t most = 1u << 22;  // that render() takes
-    settings.samples = int(parse_whole("--spp", text, 1, most));
+    settings.samples = int(parse_whole("--spp", text, 1, max_picture_samples));
   })->group(group);
   add_value_option(app, "--time", "SECONDS", "Wall-clock time for sampling",
                    [&settings](const std::string& text) {
