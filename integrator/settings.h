@@ -14,6 +14,33 @@ constexpr int term_count = 5;
 constexpr std::array<std::string_view, term_count> term_names = {"emitted", "specular", "direct",
                                                                  "indirect", "caustic"};
 
+// How the light is computed: by unbiased path tracing, or from caches of light vectors.
+enum class Integrator : std::uint8_t { path, light_vectors };
+constexpr std::array<std::string_view, 2> integrator_names = {"path", "light-vectors"};
+
+// When a cached record may be reused: by the criteria of the 2003 paper, or by derivatives.
+enum class Validity : std::uint8_t { paper, hessian };
+constexpr std::array<std::string_view, 2> validity_names = {"paper", "hessian"};
+
+// The paper's four parameters (section 4.2).
+struct PaperParameters {
+  float max_variation = 0.3f;          // E_B: relative change of irradiance, > 0
+  float min_normal_cosine = 0.9f;      // S_courb, [-1, 1): of the normals at both points
+  float min_direction_cosine = 0.95f;  // S_dir, [-1, 1): of both view directions
+  int needed_records = 3;              // valid records that an interpolation needs, ≥ 1
+  int seeds = 1000;   // pixels, at random, where records are made first (section 2.4)
+  int samples = 512;  // rays of a record's hemisphere (eq. 2.5)
+};
+
+// Parts of the hessian validity that can be left out, so that their worth can be measured.
+struct ValidityParts {
+  bool hessian = true;          // radii by second derivatives; else by distances alone
+  bool gradient = true;         // extrapolation by first derivatives
+  bool neighbour_clamp = true;  // radii differ by no more than the distance between records
+  bool leak_guard = true;       // visibility tests toward records behind near obstacles
+  bool footprint_clamp = true;  // no radius below the pixels' size
+};
+
 // Pixel reconstruction filters, all positive: samples are drawn from the filter, so pixels stay
 // independent.
 enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
@@ -22,6 +49,15 @@ constexpr int max_picture_side = 65536;       // pixels
 constexpr int max_picture_samples = 1 << 22;  // a pixel
 
 struct RenderSettings {
+  Integrator integrator = Integrator::path;
+  Validity validity = Validity::hessian;  // light_vectors only
+  PaperParameters paper;
+  ValidityParts validity_parts;
+  // Relative error of cached light that is aimed at where `error` is 0: radii and sample counts of
+  // records follow. A fraction.
+  double cache_error = 0.01;
+  std::uint64_t cache_bytes = std::uint64_t{1} << 30;  // of all caches; full ones store no more
+
   int width = 512;   // pixels, [1, max_picture_side]
   int height = 512;  // pixels, [1, max_picture_side]
   PixelFilter filter = PixelFilter::box;
