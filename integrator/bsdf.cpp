@@ -323,37 +323,27 @@ void Bsdf::set_lobes(const SurfaceParameters& surface, float specular_roughness,
   lobes_[transmit] = {weights[transmit] * scale, LobeKind::specular, true};
   lobes_[spread] = {weights[spread] * scale, base_spread, false};
   lobes_[spread_through] = {weights[spread_through] * scale, base_spread, false};
-  lobes_[diffuse] = {weights[diffuse] * scale, LobeKind::broad, false};
+  lobes_[diffuse] = {weights[diffuse] * scale, LobeKind::diffuse, false};
 }
 
-template <typename Keep>
-Bsdf Bsdf::restricted(const Keep& keep) const {
+Bsdf Bsdf::with_only(std::uint32_t kinds) const {
   Bsdf result = *this;
   if (lambertian_) {
-    if (!keep(diffuse, LobeKind::broad)) result.diffuse_ = Color(0.0f);
+    if ((kinds & kind_bit(LobeKind::diffuse)) == 0) result.diffuse_ = Color(0.0f);
     return result;
   }
   float kept = 0.0f;
-  for (int lobe = 0; lobe < lobe_count; ++lobe) {
-    LobeState& state = result.lobes_[lobe];
-    if (!keep(static_cast<Lobe>(lobe), state.kind)) state.probability = 0.0f;
-    kept += state.probability;
+  for (LobeState& lobe : result.lobes_) {
+    if ((kinds & kind_bit(lobe.kind)) == 0) lobe.probability = 0.0f;
+    kept += lobe.probability;
   }
   const float scale = kept > 0.0f ? 1.0f / kept : 0.0f;
-  for (LobeState& state : result.lobes_) state.probability *= scale;
+  for (LobeState& lobe : result.lobes_) lobe.probability *= scale;
   return result;
 }
 
-Bsdf Bsdf::without(LobeKind kind) const {
-  return restricted([=](Lobe, LobeKind k) { return k != kind; });
-}
-
-Bsdf Bsdf::without_diffuse() const {
-  return restricted([](Lobe lobe, LobeKind) { return lobe != diffuse; });
-}
-
 bool Bsdf::has(LobeKind kind) const {
-  if (lambertian_) return kind == LobeKind::broad && !is_black(diffuse_);
+  if (lambertian_) return kind == LobeKind::diffuse && !is_black(diffuse_);
   for (const LobeState& lobe : lobes_)
     if (lobe.probability > 0.0f && lobe.kind == kind) return true;
   return false;

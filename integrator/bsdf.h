@@ -23,15 +23,23 @@
 
 namespace lumivec {
 
-// Broad and glossy lobes are the non-specular ones (D). Glossy are those that are sharp enough to
-// throw light in patches that paths from the eye find badly.
-enum class LobeKind : std::uint8_t { broad, glossy, specular };
-constexpr std::size_t lobe_kind_count = 3;
+// All but specular lobes are non-specular (D). Glossy are those that are sharp enough to throw
+// light in patches that paths from the eye find badly; diffuse is the one lobe that hardly depends
+// on the view.
+enum class LobeKind : std::uint8_t { diffuse, broad, glossy, specular };
+constexpr std::size_t lobe_kind_count = 4;
+constexpr bool is_broad(LobeKind kind) {
+  return kind == LobeKind::diffuse || kind == LobeKind::broad;
+}
 // Lobes that are not specular are glossy below this perceptual roughness.
 constexpr float glossy_roughness = 0.35f;
 
 // Radiance is scaled by the squared ratio of indices where it crosses a boundary, importance (light
 // paths) is not.
+constexpr std::uint32_t kind_bit(LobeKind kind) {
+  return 1u << static_cast<unsigned>(kind);
+}
+
 enum class Transport : std::uint8_t { radiance, importance };
 
 // A material at a point, textures applied. Ranges as in Material; colours clamped to [0, 1] where
@@ -62,7 +70,8 @@ struct BsdfValue {
   BsdfValue() { f_cos.fill(Color(0.0f)); }
   const Color& of(LobeKind kind) const { return f_cos[static_cast<std::size_t>(kind)]; }
   float pdf_of(LobeKind kind) const { return pdf[static_cast<std::size_t>(kind)]; }
-  Color non_specular() const { return of(LobeKind::broad) + of(LobeKind::glossy); }
+  Color of_broad() const { return of(LobeKind::diffuse) + of(LobeKind::broad); }
+  Color non_specular() const { return of_broad() + of(LobeKind::glossy); }
 };
 
 struct BsdfSample {
@@ -71,7 +80,7 @@ struct BsdfSample {
   // sr⁻¹, of the sampled kind, includes the probability of choosing it; delta: the probability of
   // choosing that lobe.
   float pdf = 0.0f;
-  LobeKind kind = LobeKind::broad;
+  LobeKind kind = LobeKind::diffuse;
   bool delta = false;        // no density: eval and light sampling cannot find this direction
   bool transmitted = false;  // wi is on the other side of the surface
 };
@@ -100,14 +109,14 @@ class Bsdf {
   // Draws a direction; u_lobe and u in [0, 1). False: absorbed, and the path ends there.
   bool sample(float u_lobe, const V2f& u, BsdfSample& sample) const;
 
-  // The same surface without the lobes of a kind, or without its diffuse lobe: eval leaves them out,
-  // sample never draws them.
-  Bsdf without(LobeKind kind) const;
-  Bsdf without_diffuse() const;
+  // The same surface with the lobes of some kinds alone, bit 1 << kind each: eval leaves out
+  // others, sample never draws them.
+  Bsdf with_only(std::uint32_t kinds) const;
 
   // Whether any lobe of that kind is there, delta lobes included.
   bool has(LobeKind kind) const;
-  bool has_non_specular() const { return has(LobeKind::broad) || has(LobeKind::glossy); }
+  bool has_broad() const { return has(LobeKind::diffuse) || has(LobeKind::broad); }
+  bool has_non_specular() const { return has_broad() || has(LobeKind::glossy); }
 
   // Whether there is nothing but the diffuse lobe, with a constant f.
   bool lambertian() const { return lambertian_; }
@@ -161,8 +170,6 @@ class Bsdf {
   float coat_transmittance(const V3f& wi) const;
   float reflected_share(const Color& reflected, const Color& passed) const;
   Color passed(const FresnelShape& shape) const;
-  template <typename Keep>
-  Bsdf restricted(const Keep& keep) const;
   void add(BsdfValue& value, Lobe lobe, const Color& f_cos, float pdf) const;
   void eval_coat(const V3f& wi, BsdfValue& value) const;
   void eval_reflection(const V3f& wi, const V3f& local, BsdfValue& value) const;

@@ -42,9 +42,9 @@ BsdfValue Bsdf::eval(const V3f& wi) const {
   if (lambertian_) {
     const float cos_i = wi.dot(frame_.n);
     if (side <= 0.0f || cos_i <= 0.0f) return value;
-    constexpr auto broad = static_cast<std::size_t>(LobeKind::broad);
-    value.f_cos[broad] = diffuse_ * cos_i;
-    value.pdf[broad] = cos_i * inv_pi;
+    constexpr auto kind = static_cast<std::size_t>(LobeKind::diffuse);
+    value.f_cos[kind] = diffuse_ * cos_i;
+    value.pdf[kind] = cos_i * inv_pi;
     return value;
   }
   const V3f local = frame_.to_local(wi);

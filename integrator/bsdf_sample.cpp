@@ -13,7 +13,7 @@ bool Bsdf::sample(float u_lobe, const V2f& u, BsdfSample& sample) const {
     sample.wi = frame_.to_world(local);
     sample.weight = diffuse_ * pi;
     sample.pdf = local.z * inv_pi;
-    sample.kind = LobeKind::broad;
+    sample.kind = LobeKind::diffuse;
     sample.transmitted = false;
     return local.z > 0.0f && sample.wi.dot(geometric_normal_) > 0.0f && !is_black(diffuse_);
   }

@@ -258,19 +258,20 @@ void LightTracer::trace_path(std::uint64_t path, std::vector<Splat>& splats,
     const bool caustic = bent && !diffused;
     const Covered here = {patchy || specular_caustic || caustic || (run && diffused),
                           specular_caustic || caustic};
-    if ((here.broad && bsdf.has(LobeKind::broad)) || (here.glossy && bsdf.has(LobeKind::glossy))) {
+    if ((here.broad && bsdf.has_broad()) || (here.glossy && bsdf.has(LobeKind::glossy))) {
       const Term term = diffused ? Term::indirect : Term::caustic;
       connect(point, parameters.normal, bsdf, wo, begin.flux * weight, media.top(), term, here,
               ray_seed, splats, statistics);
     }
     const std::array<float, 4> u = random();
     BsdfSample s;
+    constexpr std::uint32_t sharp_kinds = kind_bit(LobeKind::glossy) | kind_bit(LobeKind::specular);
     // A broad event now would be none of this tracer's business.
     const bool drawn = here.broad ? bsdf.sample(u[0], V2f(u[1], u[2]), s)
-                                  : bsdf.without(LobeKind::broad).sample(u[0], V2f(u[1], u[2]), s);
+                                  : bsdf.with_only(sharp_kinds).sample(u[0], V2f(u[1], u[2]), s);
     if (!drawn) return;
     if (s.kind != LobeKind::specular) {
-      const bool broad = s.kind == LobeKind::broad;
+      const bool broad = is_broad(s.kind);
       specular_caustic = here.glossy;
       patchy = patchy || (broad && here.broad);
       run = run && !broad;
@@ -323,7 +324,7 @@ void LightTracer::connect(const SurfacePoint& point, const V3f& shading_normal, 
   if (!camera_.project(point.position, pixel, to_eye, distance, importance)) return;
   const BsdfValue value_to_eye = bsdf.eval(to_eye);
   Color f(0.0f);
-  if (covered.broad) f += value_to_eye.of(LobeKind::broad);
+  if (covered.broad) f += value_to_eye.of_broad();
   if (covered.glossy) f += value_to_eye.of(LobeKind::glossy);
   if (f == Color(0.0f)) return;
   Color value =

@@ -67,7 +67,7 @@ struct CausticState {
       return;
     }
     patchy = kind == LobeKind::glossy && broad;
-    if (!scattered) broad = kind == LobeKind::broad;
+    if (!scattered) broad = is_broad(kind);
     scattered = true;
     bent = false;
   }
@@ -431,14 +431,14 @@ class PathStream {
     Color arriving = lane.throughput * light.radiance * (1.0f / light.pdf);
     if (const Material* medium = lane.media.top())
       arriving *= volume_transmittance(*medium, light.distance);
-    lane.shadow_light[0] = weighted(LobeKind::broad);
+    lane.shadow_light[0] = weighted(LobeKind::diffuse);
     lane.shadow_light[1] = Color(0.0f);
     if (!bsdf.lambertian()) {
-      lane.shadow_light[0] += weighted(LobeKind::glossy);
+      lane.shadow_light[0] += weighted(LobeKind::broad) + weighted(LobeKind::glossy);
       lane.shadow_light[1] = arriving * weighted(LobeKind::specular);
     }
     lane.shadow_light[0] *= arriving;
-    lane.shadow_term[0] = after_event(lane.term, LobeKind::broad);
+    lane.shadow_term[0] = after_event(lane.term, LobeKind::diffuse);
     lane.shadow_term[1] = after_event(lane.term, LobeKind::specular);
     const std::uint32_t found =
         (is_black(lane.shadow_light[0]) ? 0u : reachable_terms(lane.shadow_term[0])) |

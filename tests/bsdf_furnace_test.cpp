@@ -97,7 +97,7 @@ TEST(BsdfFurnace, WithoutSpecularTheDiffuseLobeIsLambert) {
     const BsdfValue v = make_bsdf(p, at_cosine(0.6f)).eval(at_cosine(0.3f, 2.0f));
     for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(v.non_specular()[c], p.base_color[c] * 0.3f / pi);
     EXPECT_EQ(v.of(LobeKind::specular), Color(0.0f));
-    EXPECT_NEAR(v.pdf_of(LobeKind::broad), 0.3f / pi, 1e-6f);
+    EXPECT_NEAR(v.pdf_of(LobeKind::diffuse), 0.3f / pi, 1e-6f);
   }
 }
 

@@ -76,7 +76,8 @@ TEST(Bsdf, IsReciprocal) {
       const BsdfValue b = back.eval(wo);
       const float eta2 = crosses && !s.surface.thin_walled ? s.surface.eta * s.surface.eta : 1.0f;
       for (int c = 0; c < 3; ++c)
-        for (const LobeKind kind : {LobeKind::broad, LobeKind::glossy, LobeKind::specular}) {
+        for (const LobeKind kind :
+             {LobeKind::diffuse, LobeKind::broad, LobeKind::glossy, LobeKind::specular}) {
           const float f = a.of(kind)[c] / std::abs(wi.z) * eta2;
           const float g = b.of(kind)[c] / wo.z;
           // Half vectors of sharp lobes are only as good as single precision.
@@ -120,7 +121,7 @@ TEST(Bsdf, ThresholdOfOneMakesAllButDiffuseSpecular) {
   EXPECT_GT(v.of(LobeKind::specular).x, 0.0f);
   EXPECT_GT(v.non_specular().x, 0.0f);
   EXPECT_TRUE(bsdf.has(LobeKind::specular));
-  EXPECT_TRUE(bsdf.has(LobeKind::broad));
+  EXPECT_TRUE(bsdf.has(LobeKind::diffuse));
 }
 
 // The threshold sorts light into terms and changes nothing of it.
@@ -242,7 +243,7 @@ TEST(Bsdf, BlackSurfaceAbsorbs) {
     const Bsdf bsdf = make_bsdf(p, at_cosine(0.6f));
     BsdfSample sample;
     EXPECT_FALSE(bsdf.sample(0.5f, V2f(0.4f, 0.6f), sample));
-    EXPECT_FALSE(bsdf.has(LobeKind::broad));
+    EXPECT_FALSE(bsdf.has_broad());
     EXPECT_FALSE(bsdf.has_non_delta());
   }
 }
@@ -388,7 +389,7 @@ TEST(Bsdf, CoatHasItsOwnNormalAndRoughness) {
   EXPECT_TRUE(sample.delta);
   EXPECT_EQ(sample.kind, LobeKind::specular);
   EXPECT_NEAR(sample.wi.x, 0.96f, 1e-6f);
-  EXPECT_TRUE(bsdf.has(LobeKind::broad));
+  EXPECT_TRUE(bsdf.has(LobeKind::diffuse));
 }
 
 }  // namespace
