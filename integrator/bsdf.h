@@ -113,6 +113,11 @@ class Bsdf {
   // others, sample never draws them.
   Bsdf with_only(std::uint32_t kinds) const;
 
+  // f of the diffuse lobe for light from unit direction wi, sr⁻¹; 0 below its normal.
+  Color diffuse_brdf(const V3f& wi) const;
+  // The shading normal, unit, as it was bent to the view.
+  const V3f& normal() const { return frame_.n; }
+
   // Whether any lobe of that kind is there, delta lobes included.
   bool has(LobeKind kind) const;
   bool has_broad() const { return has(LobeKind::diffuse) || has(LobeKind::broad); }

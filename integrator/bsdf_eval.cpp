@@ -75,6 +75,13 @@ void Bsdf::eval_coat(const V3f& wi, BsdfValue& value) const {
   add(value, coat, Color(f_cos), reflected_facet_pdf(density, o.z, coat_root_wo_));
 }
 
+Color Bsdf::diffuse_brdf(const V3f& wi) const {
+  if (lambertian_) return diffuse_;
+  const float cosine = std::min(1.0f, wi.dot(frame_.n));
+  if (cosine <= 0.0f || lobes_[diffuse].probability <= 0.0f) return Color(0.0f);
+  return diffuse_ * dielectric_remainder(base_albedo(cosine)) * coat_transmittance(wi);
+}
+
 void Bsdf::eval_reflection(const V3f& wi, const V3f& i, BsdfValue& value) const {
   const V3f& o = local_wo_;
   const float kept_i = coat_transmittance(wi);

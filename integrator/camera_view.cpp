@@ -50,6 +50,11 @@ CameraRay CameraView::ray(float x, float y) const {
   return ray;
 }
 
+float CameraView::footprint(float distance) const {
+  const float pixel = 2.0f * half_height_ / height_;
+  return kind_ == CameraKind::orthographic ? pixel : pixel * distance;
+}
+
 float CameraView::visible_distance(const V3f& p, float distance) const {
   const float z = depth(p);
   return distance * (z - near_) / z;

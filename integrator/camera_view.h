@@ -25,6 +25,9 @@ class CameraView {
   // Distance of a traced-space point along the view axis.
   float depth(const V3f& p) const { return (p - position_).dot(forward_); }
 
+  // Size of a pixel at a distance from the eye, scene units.
+  float footprint(float distance) const;
+
   // How much of the distance from p to the eye must be free for the eye to see it: all but what
   // lies before znear.
   float visible_distance(const V3f& p, float distance) const;

@@ -44,6 +44,12 @@ struct RenderStatistics {
   std::uint64_t rays_shadow = 0;
   std::uint64_t samples = 0;      // camera paths in all
   std::uint64_t light_paths = 0;  // paths started at lights
+  std::uint64_t gather_paths = 0;     // paths that made records
+  std::uint64_t rays_visibility = 0;  // short tests toward records
+  std::uint64_t cache_hits = 0, cache_misses = 0;
+  std::uint64_t records = 0;      // in the caches
+  std::uint64_t cache_bytes = 0;  // of the caches
+  double seconds_cache = 0.0;     // making records
   std::array<std::uint64_t, term_count>
       dropped{};                 // non-finite samples left out, by the term that was not finite
   double error_estimate = -1.0;  // own estimate of √relMSE, as a fraction; < 0: none was made

@@ -18,7 +18,7 @@ constexpr int lane_count = 8;
 // the variance, and what leads to the first vertex (the eye's ray, light sampling there) need not
 // be traced anew for it. On the Cornell boxes four have the squared error of four paths for the
 // time of two and a half (Arvo and Kirk 1990).
-constexpr std::uint32_t splits = 4;
+constexpr std::uint32_t usual_splits = 4;
 // Random numbers for the pixel's position and light sampling at the first vertex are drawn once a
 // path, others once a continuation.
 constexpr std::uint32_t first_continued_block = 2;
@@ -26,6 +26,8 @@ constexpr std::uint32_t first_continued_block = 2;
 // Two events of scattering are always traced; then a path survives with the largest channel of its
 // throughput.
 constexpr int first_roulette_depth = 2;
+// A pixel's size grows so many times over where a path that has been scattered lands.
+constexpr float scattered_footprint = 4.0f;
 // Survivors of the roulette are at most this much brighter, which bounds the noise that it adds.
 constexpr float min_survival = 0.05f;
 // Paths that lose nothing, between mirrors or by total reflection, end all the same: from this
@@ -79,6 +81,20 @@ struct CausticState {
   }
 };
 
+// What a diffuse lobe makes of cached light. The lobe's dependence on the direction of light is
+// taken where the source stands, and for the sky at its mean cosine.
+Color reflected_diffusely(const Bsdf& bsdf, const CachedLight& cached) {
+  const V3f& normal = bsdf.normal();
+  const SkyAndSource light = split_light(cached.light, cached.sky_normal);
+  const Color sky = light.sky_irradiance(cached.sky_normal, normal);
+  const Color source = light.source_irradiance(normal);
+  if (bsdf.lambertian()) return bsdf.diffuse_brdf(normal) * (sky + source);
+  constexpr float sky_cosine = 2.0f / 3.0f;
+  const V3f oblique =
+      sky_cosine * normal + std::sqrt(1.0f - sky_cosine * sky_cosine) * make_frame(normal).t;
+  return bsdf.diffuse_brdf(oblique) * sky + bsdf.diffuse_brdf(light.mean_direction) * source;
+}
+
 // The first vertex of a path, kept until all of the path's continuations have left it.
 struct Fork {
   SurfacePoint point;
@@ -98,6 +114,9 @@ struct Lane {
   std::uint32_t sample = 0;
   std::uint32_t seed = 0;          // of the pixel
   std::uint32_t continuation = 0;  // of the splits that leave the first vertex
+  std::uint32_t splits = usual_splits;
+  bool probe = false;     // left a diffuse lobe whose other light is cached: brings caustics alone
+  float length = 0.0f;    // of the path from the eye, scene units
   std::optional<Fork> fork;
   int depth = 0;  // scattering events so far
 
@@ -146,14 +165,29 @@ struct Lane {
 class PathStream {
  public:
   PathStream(const PathTracer& tracer, const Tile& tile, std::uint32_t first_sample,
-             std::uint32_t sample_count, std::vector<PixelSums>& sums, RenderStatistics& statistics)
+             std::uint32_t sample_count, std::vector<PixelSums>& sums, RenderStatistics& statistics,
+             const CacheUse& cache)
       : t_(tracer),
         tile_(tile),
         first_sample_(first_sample),
         pixel_count_(static_cast<std::uint32_t>(tile.width) *
                      static_cast<std::uint32_t>(tile.height)),
         path_count_(std::uint64_t(pixel_count_) * sample_count),
-        sums_(sums),
+        cache_(cache),
+        terms_(tracer.settings_.terms),
+        sums_(&sums),
+        statistics_(statistics) {}
+
+  // For paths that gather light.
+  PathStream(const PathTracer& tracer, const std::vector<GatherRay>& rays, const MediumStack& media,
+             std::uint32_t seed, std::vector<GatherResult>& results, RenderStatistics& statistics)
+      : t_(tracer),
+        path_count_(rays.size()),
+        terms_(term_bit(Term::indirect)),
+        rays_to_gather_(&rays),
+        gather_media_(media),
+        gather_seed_(seed),
+        results_(&results),
         statistics_(statistics) {}
 
   void run() {
@@ -165,7 +199,7 @@ class PathStream {
       trace_shadows();
       for (Lane& lane : lanes_) {
         while (lane.active && lane.ended && lane.fork) next_continuation(lane);
-        if (lane.active && lane.ended) deposit(lane);
+        if (lane.active && lane.ended) results_ ? deliver(lane) : deposit(lane);
       }
     }
   }
@@ -175,7 +209,9 @@ class PathStream {
   bool fill() {
     bool any = false;
     for (Lane& lane : lanes_) {
-      if (!lane.active && next_path_ < path_count_) start(lane, next_path_++);
+      while (!lane.active && next_path_ < path_count_) {
+        results_ ? start_gathering(lane, next_path_++) : start(lane, next_path_++);
+      }
       any = any || lane.active;
     }
     return any;
@@ -191,6 +227,12 @@ class PathStream {
     const int y = tile_.y + static_cast<int>(lane.pixel) / tile_.width;
     const auto seed_low = static_cast<std::uint32_t>(t_.settings_.seed);
     const auto seed_high = static_cast<std::uint32_t>(t_.settings_.seed >> 32);
+    const int stride = cache_.stride;
+    if (stride > 1 && (x % stride != stride / 2 || y % stride != stride / 2)) {
+      lane.active = false;
+      return;
+    }
+    if (cache_.indirect) lane.splits = 1;
     lane.seed =
         hash_combine(hash_combine(hash_combine(seed_low, seed_high), static_cast<std::uint32_t>(x)),
                      static_cast<std::uint32_t>(y));
@@ -205,6 +247,39 @@ class PathStream {
     lane.throughput = Color(1.0f);
     lane.hit_depth = std::numeric_limits<float>::infinity();
     ++statistics_.samples;
+  }
+
+  // A path whose first event, on a broad lobe, is behind it.
+  void start_gathering(Lane& lane, std::uint64_t path) {
+    lane = Lane();
+    const GatherRay& ray = (*rays_to_gather_)[path];
+    lane.active = true;
+    lane.pixel = static_cast<std::uint32_t>(path);
+    lane.sample = ray.index;
+    lane.seed = gather_seed_;
+    lane.splits = 1;
+    lane.depth = 1;
+    lane.origin = ray.origin;
+    lane.direction = ray.direction;
+    lane.throughput = Color(1.0f);
+    lane.term = Term::direct;
+    lane.caustic.event(LobeKind::diffuse, false, Term::direct);
+    lane.media = gather_media_;
+    lane.hit_depth = std::numeric_limits<float>::infinity();
+    ++statistics_.gather_paths;
+  }
+
+  void deliver(Lane& lane) {
+    lane.active = false;
+    constexpr auto indirect = static_cast<std::size_t>(Term::indirect);
+    GatherResult& result = (*results_)[lane.pixel];
+    result.distance = lane.hit_depth;
+    result.radiance = Color(0.0f);
+    if (is_finite(lane.radiance[indirect])) {
+      result.radiance = lane.radiance[indirect];
+    } else {
+      ++statistics_.dropped[indirect];
+    }
   }
 
   // Some of Embree's packet kernels look at lanes that are not valid: they must hold an empty ray.
@@ -322,12 +397,14 @@ class PathStream {
     }
     const SurfacePoint point = t_.scene_.surface(hit, lane.origin, lane.direction);
     const Material& material = *point.material;
+    if (results_ && lane.depth == 1 && std::isinf(lane.hit_depth)) lane.hit_depth = hit.distance;
     if (lane.camera_ray && culled(point)) {
       lane.near = next_distance(hit.distance, point.error);
       lane.ended = lane.near >= lane.far;
       return;
     }
     absorb(lane, point, hit.distance);
+    lane.length += hit.distance;
 
     const Color emission = t_.scene_.emission(point);
     if (!is_black(emission)) add_emission(lane, point, emission);
@@ -345,23 +422,69 @@ class PathStream {
       lane.ended = true;
       return;
     }
-    const Bsdf bsdf(parameters, point.geometric_normal, -lane.direction, t_.scene_.albedo_tables(),
-                    t_.settings_.specular_roughness);
+    Bsdf bsdf(parameters, point.geometric_normal, -lane.direction, t_.scene_.albedo_tables(),
+              t_.settings_.specular_roughness);
+    if (lane.probe) bsdf = bsdf.with_only(kind_bit(LobeKind::specular));
     const bool passes = parameters.transmission > 0.0f;
     const V3f receiver = passes ? V3f(0.0f) : point.geometric_normal;
-    const bool may_sample_lights = bsdf.has_non_delta() && !t_.lights_.empty();
-    if (may_sample_lights) sample_light(lane, point, bsdf, receiver);
-    if (lane.depth == 0) {
-      lane.throughput *= 1.0f / static_cast<float>(splits);
+    const bool may_sample_lights =
+        bsdf.has_non_delta() && !t_.lights_.empty() && !cache_.requests;
+    if (cache_.indirect && !lane.probe && bsdf.has(LobeKind::diffuse)) {
+      const bool cached = use_cache(lane, point, bsdf);
+      if (cached || cache_.requests) {
+        shade_beside_cache(lane, point, parameters, bsdf, receiver, may_sample_lights);
+        return;
+      }
+    }
+    if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, false);
+    if (lane.depth == 0 && lane.splits > 1) {
+      lane.throughput *= 1.0f / static_cast<float>(lane.splits);
       lane.fork.emplace(
           Fork{point, parameters, bsdf, receiver, may_sample_lights, lane.throughput, lane.media});
     }
     scatter(lane, point, parameters, bsdf, receiver, may_sample_lights);
   }
 
+  // Adds the diffuse lobe's indirect light, where the cache has it; otherwise asks for it.
+  bool use_cache(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf) {
+    CachePoint at;
+    at.position = point.position;
+    at.geometric_normal = point.geometric_normal;
+    at.normal = point.normal;
+    at.error = point.error;
+    at.footprint = t_.camera_.footprint(lane.length);
+    if (lane.caustic.scattered) at.footprint *= scattered_footprint;
+    CachedLight light;
+    if (!cache_.indirect->look_up(at, cache_.budget, cache_.needed_weight, light,
+                                  statistics_.rays_visibility)) {
+      ++statistics_.cache_misses;
+      if (cache_.requests) cache_.requests->push_back({at, lane.media});
+      return false;
+    }
+    ++statistics_.cache_hits;
+    const Term term = after_event(after_event(lane.term, LobeKind::diffuse), LobeKind::diffuse);
+    lane.add(term, lane.throughput * reflected_diffusely(bsdf, light));
+    return true;
+  }
+
+  // Direct and caustic light of the diffuse lobe, whose indirect light is cached, and all light of
+  // the others.
+  void shade_beside_cache(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
+                          const Bsdf& bsdf, const V3f& receiver, bool may_sample_lights) {
+    const bool probes = t_.eye_paths_find_caustics_ && !cache_.requests;
+    if (probes) {
+      if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, true);
+      scatter(lane, point, parameters, bsdf, receiver, may_sample_lights, true);
+      return;
+    }
+    const Bsdf rest = bsdf.with_only(~kind_bit(LobeKind::diffuse));
+    if (may_sample_lights) sample_light(lane, point, bsdf, rest, receiver, true);
+    scatter(lane, point, parameters, rest, receiver, may_sample_lights);
+  }
+
   // Sends the path off from its first vertex once more, or forgets the vertex after the last time.
   void next_continuation(Lane& lane) {
-    if (++lane.continuation == splits) {
+    if (++lane.continuation == lane.splits) {
       lane.fork.reset();
       return;
     }
@@ -378,7 +501,7 @@ class PathStream {
 
   void add_environment(Lane& lane) {
     const EnvironmentLight& environment = t_.lights_.environment();
-    if (environment.black()) return;
+    if (environment.black() || (lane.probe && !lane.caustic.bent)) return;
     float weight = 1.0f;
     if (lane.light_sampled) {
       weight = power_heuristic(
@@ -389,6 +512,7 @@ class PathStream {
   }
 
   void add_emission(Lane& lane, const SurfacePoint& point, const Color& emission) {
+    if (lane.probe && !lane.caustic.bent) return;
     if (lane.caustic.left_to_light_paths() && t_.lights_.light_traced(point)) return;
     float weight = 1.0f;
     if (lane.light_sampled) {
@@ -416,16 +540,23 @@ class PathStream {
     lane.object = point.instance;
   }
 
-  void sample_light(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf, const V3f& receiver) {
+  // scattered: what paths go on by, of bsdf. diffuse_alone: none will go on by the diffuse lobe to
+  // where a light could be found.
+  void sample_light(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf, const Bsdf& scattered,
+                    const V3f& receiver, bool diffuse_alone) {
     const std::array<float, 4> u = lane.random(1 + 2 * static_cast<std::uint32_t>(lane.depth));
     LightSample light;
     if (!t_.lights_.sample(point.position, receiver, u[0], V2f(u[1], u[2]), light)) return;
     const BsdfValue f = bsdf.eval(light.direction);
     // Scattering competes with as many samples as there are continuations.
-    const float trials = lane.depth == 0 ? static_cast<float>(splits) : 1.0f;
+    const float trials = lane.depth == 0 ? static_cast<float>(lane.splits) : 1.0f;
+    const BsdfValue competing =
+        &scattered == &bsdf || bsdf.lambertian() ? f : scattered.eval(light.direction);
     const auto weighted = [&](LobeKind kind) {
       if (light.light_traced && lane.caustic.left_to_light_paths(kind)) return Color(0.0f);
-      const float weight = light.delta ? 1.0f : power_heuristic(light.pdf, trials * f.pdf_of(kind));
+      const bool alone = light.delta || (kind == LobeKind::diffuse && diffuse_alone);
+      const float weight =
+          alone ? 1.0f : power_heuristic(light.pdf, trials * competing.pdf_of(kind));
       return f.of(kind) * weight;
     };
     Color arriving = lane.throughput * light.radiance * (1.0f / light.pdf);
@@ -443,22 +574,24 @@ class PathStream {
     const std::uint32_t found =
         (is_black(lane.shadow_light[0]) ? 0u : reachable_terms(lane.shadow_term[0])) |
         (is_black(lane.shadow_light[1]) ? 0u : reachable_terms(lane.shadow_term[1]));
-    lane.shadow = (found & t_.settings_.terms) != 0;
+    lane.shadow = (found & terms_) != 0;
     lane.shadow_origin = offset_origin(point, light.direction);
     lane.shadow_target = light.target;
   }
 
   void scatter(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
-               const Bsdf& bsdf, const V3f& receiver, bool lights_sampled) {
+               const Bsdf& bsdf, const V3f& receiver, bool lights_sampled,
+               bool diffuse_is_cached = false) {
     lane.ended = true;
     const std::array<float, 4> u = lane.random(2 + 2 * static_cast<std::uint32_t>(lane.depth));
     BsdfSample s;
     if (!bsdf.sample(u[0], V2f(u[1], u[2]), s)) return;
     lane.throughput *= s.weight;
     if (is_black(lane.throughput)) return;
+    lane.probe = lane.probe || (diffuse_is_cached && s.kind == LobeKind::diffuse);
     const bool straight_through = s.delta && s.transmitted && parameters.thin_walled;
     const Term next = after_event(lane.term, s.kind);
-    if ((reachable_terms(next) & t_.settings_.terms) == 0) return;
+    if ((reachable_terms(next) & terms_) == 0) return;
     lane.term = next;
     lane.caustic.event(s.kind, straight_through, next);
     ++lane.depth;
@@ -466,7 +599,7 @@ class PathStream {
     // still, weighted by the density there, as it is itself.
     if (!straight_through || !lane.light_sampled) {
       lane.light_sampled = !s.delta && lights_sampled;
-      lane.scatter_pdf = lane.depth == 1 ? s.pdf * static_cast<float>(splits) : s.pdf;
+      lane.scatter_pdf = lane.depth == 1 ? s.pdf * static_cast<float>(lane.splits) : s.pdf;
       lane.vertex = point.position;
       lane.vertex_normal = receiver;
     }
@@ -476,7 +609,7 @@ class PathStream {
     }
     if (lane.depth >= first_roulette_depth) {
       const float survival = std::clamp(
-          max_component(lane.throughput) * lane.radiance_scale * static_cast<float>(splits),
+          max_component(lane.throughput) * lane.radiance_scale * static_cast<float>(lane.splits),
           min_survival, lane.depth < endless_depth ? 1.0f : endless_survival);
       if (survival < 1.0f) {
         if (u[3] >= survival) return;
@@ -492,7 +625,7 @@ class PathStream {
 
   void deposit(Lane& lane) {
     lane.active = false;
-    PixelSums& sums = sums_[lane.pixel];
+    PixelSums& sums = (*sums_)[lane.pixel];
     bool finite = true;
     for (std::size_t i = 0; i < term_count; ++i) {
       if (is_finite(lane.radiance[i])) continue;
@@ -506,7 +639,7 @@ class PathStream {
     }
     if (!finite) return;
     for (std::size_t i = 0; i < term_count; ++i) {
-      if (t_.settings_.terms & (1u << i)) sums.terms[i] += lane.radiance[i];
+      if (terms_ & (1u << i)) sums.terms[i] += lane.radiance[i];
     }
     sums.albedo += lane.albedo;
     sums.normal += lane.normal;
@@ -514,13 +647,19 @@ class PathStream {
   }
 
   const PathTracer& t_;
-  const Tile tile_;
-  const std::uint32_t first_sample_;
-  const std::uint32_t pixel_count_;
+  const Tile tile_ = {};
+  const std::uint32_t first_sample_ = 0;
+  const std::uint32_t pixel_count_ = 0;
   const std::uint64_t path_count_;
   std::uint64_t next_path_ = 0;
   std::uint32_t rounds_ = 0;
-  std::vector<PixelSums>& sums_;
+  const CacheUse cache_ = {};
+  const std::uint32_t terms_;
+  std::vector<PixelSums>* sums_ = nullptr;
+  const std::vector<GatherRay>* rays_to_gather_ = nullptr;
+  MediumStack gather_media_;
+  std::uint32_t gather_seed_ = 0;
+  std::vector<GatherResult>* results_ = nullptr;
   RenderStatistics& statistics_;
 
   RTCRayHit8 rays_;
@@ -537,12 +676,27 @@ PathTracer::PathTracer(const TracedScene& scene, const Lights& lights, const Cam
       lights_(lights),
       camera_(camera),
       settings_(settings),
-      filter_(settings.filter) {}
+      filter_(settings.filter) {
+  const std::vector<Emitter>& emitters = lights.emitters();
+  eye_paths_find_caustics_ =
+      lights.leaves_caustics() &&
+      (!lights.environment().black() ||
+       std::any_of(emitters.begin(), emitters.end(),
+                   [](const Emitter& emitter) { return !emitter.light_traced; }));
+}
 
 void PathTracer::render_tile(const Tile& tile, std::uint32_t first_sample,
                              std::uint32_t sample_count, std::vector<PixelSums>& sums,
-                             RenderStatistics& statistics) const {
-  PathStream stream(*this, tile, first_sample, sample_count, sums, statistics);
+                             RenderStatistics& statistics, const CacheUse& cache) const {
+  PathStream stream(*this, tile, first_sample, sample_count, sums, statistics, cache);
+  stream.run();
+}
+
+void PathTracer::gather(const std::vector<GatherRay>& rays, const MediumStack& media,
+                        std::uint32_t seed, std::vector<GatherResult>& results,
+                        RenderStatistics& statistics) const {
+  results.resize(rays.size(), GatherResult());
+  PathStream stream(*this, rays, media, seed, results, statistics);
   stream.run();
 }
 

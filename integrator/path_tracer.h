@@ -15,7 +15,9 @@
 
 #include "integrator/camera_view.h"
 #include "integrator/framebuffer.h"
+#include "integrator/irradiance_cache.h"
 #include "integrator/lights.h"
+#include "integrator/media.h"
 #include "integrator/pixel_filter.h"
 #include "integrator/settings.h"
 
@@ -39,6 +41,33 @@ struct Tile {
   int x = 0, y = 0, width = 0, height = 0;  // pixels
 };
 
+// A path that gathers indirect light for a diffuse surface.
+struct GatherRay {
+  V3f origin{0.0f}, direction{0.0f};
+  std::uint32_t index = 0;  // of its random numbers
+};
+struct GatherResult {
+  Color radiance{0.0f};   // that belongs to the surface's indirect term, cd·m⁻²
+  float distance = 0.0f;  // to what is hit first, scene units; +inf: nothing
+};
+
+// A place where a path found no cached light.
+struct RecordRequest {
+  CachePoint point;
+  MediumStack media;
+};
+
+// How paths from the eye use cached light: where it is found at a diffuse lobe, that lobe's indirect
+// light is taken from it, and the path goes on by other lobes alone.
+struct CacheUse {
+  const IrradianceCache* indirect = nullptr;  // null: none is used
+  float budget = 0.0f;                        // scene units² (IrradianceCache)
+  float needed_weight = 0.0f;
+  // Where to note what was not found; null: paths go on there as if there were no cache.
+  std::vector<RecordRequest>* requests = nullptr;
+  int stride = 1;  // of the pixels, in both directions, that paths are started for
+};
+
 class PathTracer {
  public:
   // All must outlive this.
@@ -49,7 +78,13 @@ class PathTracer {
   // (row by row, tile.width × tile.height). The result depends on nothing but these arguments and
   // the settings.
   void render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t sample_count,
-                   std::vector<PixelSums>& sums, RenderStatistics& statistics) const;
+                   std::vector<PixelSums>& sums, RenderStatistics& statistics,
+                   const CacheUse& cache = {}) const;
+
+  // Traces rays that left a diffuse surface inside media; results: one for each ray. Depends on
+  // nothing else. seed: of the random numbers.
+  void gather(const std::vector<GatherRay>& rays, const MediumStack& media, std::uint32_t seed,
+              std::vector<GatherResult>& results, RenderStatistics& statistics) const;
 
  private:
   friend class PathStream;
@@ -58,6 +93,7 @@ class PathTracer {
   const Lights& lights_;
   const CameraView& camera_;
   RenderSettings settings_;
+  bool eye_paths_find_caustics_ = false;  // not all of them are left to light paths
   PixelFilterSampler filter_;
 };
 

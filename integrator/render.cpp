@@ -10,12 +10,15 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "integrator/cache_builder.h"
 #include "integrator/denormals.h"
 #include "integrator/light_tracer.h"
 #include "integrator/path_tracer.h"
+#include "integrator/sampling.h"
 
 namespace lumivec {
 namespace {
@@ -34,6 +37,11 @@ constexpr double estimate_margin = 0.9;
 // not show.
 constexpr std::uint32_t light_batch = 4096;
 constexpr std::uint32_t batches_at_once = 64;
+// Hemispheres of a record.
+constexpr std::uint32_t record_passes = 1;
+// The area that a record's budget is stated for (irradiance_cache.h): a disc with this share of the
+// scene's radius.
+constexpr float budget_radius = 0.1f;
 constexpr double progress_interval = 0.1;  // seconds
 
 using Clock = std::chrono::steady_clock;
@@ -212,17 +220,22 @@ void add_counts(const RenderStatistics& from, RenderStatistics& to) {
   to.rays_shadow += from.rays_shadow;
   to.samples += from.samples;
   to.light_paths += from.light_paths;
+  to.rays_visibility += from.rays_visibility;
+  to.cache_hits += from.cache_hits;
+  to.cache_misses += from.cache_misses;
   for (std::size_t i = 0; i < term_count; ++i) to.dropped[i] += from.dropped[i];
 }
 
 // One render from the first pass to the last.
 class StillRender {
  public:
-  StillRender(const PathTracer& tracer, const LightTracer& light_tracer,
+  // builder: null: no cache is used.
+  StillRender(const PathTracer& tracer, const LightTracer& light_tracer, CacheBuilder* builder,
               const RenderSettings& settings, RenderStatistics& statistics,
               const ProgressCallback& progress)
       : tracer_(tracer),
         light_tracer_(light_tracer),
+        builder_(builder),
         settings_(settings),
         statistics_(statistics),
         progress_(progress),
@@ -235,6 +248,7 @@ class StillRender {
 
   void run() {
     start_ = Clock::now();
+    if (builder_) fill_cache();
     std::uint32_t done = 0;
     while (done < target_ && !stop_) {
       const std::uint32_t checkpoint = next_checkpoint(done);
@@ -257,6 +271,19 @@ class StillRender {
   const Film& film() const { return film_; }
 
  private:
+  void fill_cache() {
+    std::vector<Tile> tiles;
+    for (int i = 0; i < film_.tile_count(); ++i) tiles.push_back(film_.tile(i));
+    const auto go_on = [this] {
+      const std::lock_guard lock(mutex_);
+      note_progress(1);
+      return !stop_;
+    };
+    builder_->fill(tiles, go_on, statistics_) && builder_->refine(record_passes, go_on, statistics_);
+    cache_use_ = builder_->use();
+    statistics_.seconds_cache = seconds_since(start_);
+  }
+
   // Powers of two, where halves can be compared.
   static std::uint32_t next_checkpoint(std::uint32_t done) {
     std::uint32_t checkpoint = first_checkpoint / 2;
@@ -290,7 +317,7 @@ class StillRender {
             const Tile tile = film_.tile(i);
             sums.assign(std::size_t(tile.width) * std::size_t(tile.height), PixelSums());
             RenderStatistics counts;
-            tracer_.render_tile(tile, first_sample, count, sums, counts);
+            tracer_.render_tile(tile, first_sample, count, sums, counts, cache_use_);
             film_.add(tile, sums, first_sample == 0);
             const std::lock_guard lock(mutex_);
             add_counts(counts, statistics_);
@@ -361,6 +388,8 @@ class StillRender {
 
   const PathTracer& tracer_;
   const LightTracer& light_tracer_;
+  CacheBuilder* const builder_;
+  CacheUse cache_use_;
   const RenderSettings& settings_;
   RenderStatistics& statistics_;
   const ProgressCallback& progress_;
@@ -395,8 +424,18 @@ Framebuffer render(const Scene& scene, const Camera& camera, const RenderSetting
     const LightTracer light_tracer(traced, lights, view, settings, casters);
     const PathTracer tracer(traced, lights, view, settings);
     statistics.seconds_prepare = seconds_since(start);
-    StillRender still(tracer, light_tracer, settings, statistics, progress);
+    IrradianceCache cache(traced, settings.validity_parts, settings.cache_bytes);
+    std::optional<CacheBuilder> builder;
+    if (settings.integrator == Integrator::light_vectors) {
+      const float radius = budget_radius * traced.radius();
+      builder.emplace(tracer, traced, settings, cache,
+                      static_cast<float>(settings.cache_error) * pi * radius * radius);
+    }
+    StillRender still(tracer, light_tracer, builder ? &*builder : nullptr, settings, statistics,
+                      progress);
     still.run();
+    statistics.records = cache.size();
+    statistics.cache_bytes = cache.bytes();
     result = still.film().resolve(traced.origin());
   });
   return result;

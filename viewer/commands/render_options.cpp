@@ -71,8 +71,15 @@ void add_limit_options(CLI::App& app, RenderSettings& settings) {
 void add_light_options(CLI::App& app, RenderOptions& options) {
   const std::string group = "Light";
   RenderSettings& settings = options.settings;
-  add_value_option(app, "--integrator", "path", "How light is computed [path]",
-                   [](const std::string& text) { parse_word("--integrator", text, {"path"}); })
+  add_value_option(app, "--integrator", "NAME",
+                   "How light is computed: path (unbiased path tracing) or light-vectors (caches) "
+                   "[path]",
+                   [&options](const std::string& text) {
+                     const std::string word =
+                         parse_word("--integrator", text, {"path", "light-vectors"});
+                     options.settings.integrator =
+                         word == "path" ? Integrator::path : Integrator::light_vectors;
+                   })
       ->group(group);
   add_value_option(
       app, "--terms", "LIST",
@@ -113,6 +120,25 @@ void add_light_options(CLI::App& app, RenderOptions& options) {
       ->group(group);
 }
 
+// For developers: not in --help.
+void add_cache_options(CLI::App& app, RenderSettings& settings) {
+  const std::string hidden;
+  add_value_option(app, "--cache-error", "PERCENT", "",
+                   [&settings](const std::string& text) {
+                     settings.cache_error =
+                         parse_number_above("--cache-error", text, 0.0, 100.0) / 100.0;
+                   })
+      ->group(hidden);
+  const auto part = [&](const char* name, bool& value) {
+    app.add_flag_callback(name, [&value] { value = false; })->group(hidden);
+  };
+  part("--no-hessian", settings.validity_parts.hessian);
+  part("--no-gradient", settings.validity_parts.gradient);
+  part("--no-neighbour-clamp", settings.validity_parts.neighbour_clamp);
+  part("--no-leak-guard", settings.validity_parts.leak_guard);
+  part("--no-footprint-clamp", settings.validity_parts.footprint_clamp);
+}
+
 void add_sampling_options(CLI::App& app, RenderSettings& settings) {
   const std::string group = "Sampling";
   add_value_option(
@@ -151,6 +177,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   add_limit_options(app, options.settings);
   add_light_options(app, options);
   add_sampling_options(app, options.settings);
+  add_cache_options(app, options.settings);
   add_display_options(app, options.automatic_exposure, options.exposure, options.display);
 }
 

@@ -1,0 +1,173 @@
+#include "integrator/cache_builder.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "integrator/denormals.h"
+#include "integrator/sobol.h"
+
+namespace lumivec {
+namespace {
+
+constexpr int first_stride = 32;  // pixels
+// A place wants a record of its own unless those around it have this weight together.
+constexpr float wanted_weight = 0.4f;
+// Pixels make do with less: what lies between places that were asked for.
+constexpr float needed_weight = 0.05f;
+// Records that are made at a time, without knowing of each other.
+constexpr std::size_t batch_size = 64;
+
+template <typename Body>
+void for_each(std::size_t count, const Body& body) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        const FlushDenormals flush;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace
+
+CacheBuilder::CacheBuilder(const PathTracer& tracer, const TracedScene& scene,
+                           const RenderSettings& settings, IrradianceCache& cache, float budget)
+    : tracer_(tracer),
+      settings_(settings),
+      cache_(cache),
+      budget_(budget),
+      gather_(tracer, scene, settings.validity_parts, budget) {}
+
+CacheUse CacheBuilder::use() const {
+  CacheUse use;
+  use.indirect = &cache_;
+  use.budget = budget_;
+  use.needed_weight = needed_weight;
+  return use;
+}
+
+std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles, int stride,
+                                                 RenderStatistics& statistics) const {
+  std::vector<std::vector<RecordRequest>> found(tiles.size());
+  std::mutex mutex;
+  for_each(tiles.size(), [&](std::size_t i) {
+    CacheUse asking = use();
+    asking.needed_weight = wanted_weight;
+    asking.requests = &found[i];
+    asking.stride = stride;
+    std::vector<PixelSums> sums(std::size_t(tiles[i].width) * std::size_t(tiles[i].height));
+    RenderStatistics counts;
+    tracer_.render_tile(tiles[i], 0, 1, sums, counts, asking);
+    const std::lock_guard lock(mutex);
+    statistics.rays_camera += counts.rays_camera;
+    statistics.rays_scatter += counts.rays_scatter;
+    statistics.rays_visibility += counts.rays_visibility;
+  });
+  std::vector<RecordRequest> all;
+  for (const std::vector<RecordRequest>& some : found) {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  // In no order of place, so that those of a batch are far from each other.
+  std::vector<std::uint32_t> order(all.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t ha = mix_bits(a), hb = mix_bits(b);
+    return ha != hb ? ha < hb : a < b;
+  });
+  std::vector<RecordRequest> shuffled;
+  shuffled.reserve(all.size());
+  for (const std::uint32_t i : order) shuffled.push_back(all[i]);
+  return shuffled;
+}
+
+bool CacheBuilder::make_records(std::vector<RecordRequest>& requests,
+                                const std::function<bool()>& go_on, RenderStatistics& statistics) {
+  const auto seed_low = static_cast<std::uint32_t>(settings_.seed);
+  const auto seed_high = static_cast<std::uint32_t>(settings_.seed >> 32);
+  constexpr std::uint32_t record_stream = 0x7ec02du;  // apart from the pixels' random numbers
+  const std::uint32_t seed = hash_combine(hash_combine(seed_low, seed_high), record_stream);
+  std::size_t next = 0;
+  std::mutex mutex;
+  while (next < requests.size()) {
+    if (!go_on()) return false;
+    // The next that are still wanted.
+    std::vector<std::size_t> batch;
+    while (next < requests.size() && batch.size() < batch_size) {
+      const std::size_t group = std::min(batch_size, requests.size() - next);
+      std::vector<std::uint8_t> wanted(group);
+      for_each(group, [&](std::size_t i) {
+        CachedLight light;
+        std::uint64_t visibility_rays = 0;
+        wanted[i] = !cache_.look_up(requests[next + i].point, budget_, wanted_weight, light,
+                                    visibility_rays);
+      });
+      std::size_t used = 0;
+      for (; used < group && batch.size() < batch_size; ++used) {
+        if (wanted[used]) batch.push_back(next + used);
+      }
+      next += used;
+    }
+    std::vector<IrradianceRecord> records(batch.size());
+    for_each(batch.size(), [&](std::size_t i) {
+      RenderStatistics counts;
+      const auto number = static_cast<std::uint32_t>(places_.size() + i);
+      records[i] = gather_.make(requests[batch[i]], hash_combine(seed, number), counts);
+      const float footprint = requests[batch[i]].point.footprint;
+      records[i].least_reach = IrradianceCache::least_reach(footprint, budget_);
+      const std::lock_guard lock(mutex);
+      statistics.gather_paths += counts.gather_paths;
+      statistics.rays_scatter += counts.rays_scatter;
+      statistics.rays_shadow += counts.rays_shadow;
+      for (std::size_t t = 0; t < term_count; ++t) statistics.dropped[t] += counts.dropped[t];
+    });
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (!cache_.insert(records[i])) return true;  // full: pixels trace what they do not find
+      places_.push_back(requests[batch[i]]);
+    }
+  }
+  return true;
+}
+
+bool CacheBuilder::fill(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
+                        RenderStatistics& statistics) {
+  for (int stride = first_stride; stride >= 1; stride /= 2) {
+    cache_.commit(budget_);
+    std::vector<RecordRequest> requests = collect(tiles, stride, statistics);
+    if (!make_records(requests, go_on, statistics)) return false;
+  }
+  return true;
+}
+
+bool CacheBuilder::refine(std::uint32_t passes, const std::function<bool()>& go_on,
+                          RenderStatistics& statistics) {
+  constexpr std::size_t group = 256;
+  std::mutex mutex;
+  for (std::size_t first = 0; first < places_.size(); first += group) {
+    if (!go_on()) return false;
+    for_each(std::min(group, places_.size() - first), [&](std::size_t i) {
+      const auto index = static_cast<std::uint32_t>(first + i);
+      RenderStatistics counts;
+      IrradianceRecord& record = cache_.edit(index);
+      const std::uint32_t seed =
+          hash_combine(static_cast<std::uint32_t>(settings_.seed), 0x5eed0000u + index);
+      while (record.passes < passes) gather_.refine(record, places_[index], seed, counts);
+      const std::lock_guard lock(mutex);
+      statistics.gather_paths += counts.gather_paths;
+      statistics.rays_scatter += counts.rays_scatter;
+      statistics.rays_shadow += counts.rays_shadow;
+    });
+  }
+  return true;
+}
+
+double CacheBuilder::noise() const {
+  double sum = 0.0;
+  for (std::uint32_t i = 0; i < cache_.size(); ++i) sum += double(cache_.record(i).variance);
+  return cache_.size() > 0 ? std::sqrt(sum / cache_.size()) : 0.0;
+}
+
+}  // namespace lumivec

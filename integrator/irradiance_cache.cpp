@@ -1,0 +1,161 @@
+#include "integrator/irradiance_cache.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "integrator/frame.h"
+#include "integrator/sampling.h"
+
+namespace lumivec {
+namespace {
+
+// Records hold for normals within about 37° of their own; between that and parallel their weight
+// falls off.
+constexpr float least_normal_cosine = 0.8f;
+// Off the tangent plane a record reaches this share of its shorter half axis: surfaces that curve
+// away are still served, steps are not.
+constexpr float off_plane_reach = 0.25f;
+// Where pixels are larger than records reach they reach this many pixels: finer detail than that is
+// not asked for.
+constexpr float least_pixels = 2.5f;
+// Linear extrapolation changes the irradiance by at most this factor.
+constexpr float most_gain = 2.0f, least_gain = 0.5f;
+// Visibility is tested between points that are lifted off their surfaces by this share of their
+// distance, so that the surfaces' own unevenness does not count.
+constexpr float lift = 0.02f;
+
+constexpr std::uint64_t point_bytes = 32;  // of PointTree
+
+float reach(const IrradianceRecord& r) {
+  return std::max(r.radius_large, r.least_reach);
+}
+
+// Of azimuths −π … π, counter-clockwise.
+std::size_t sector_of(const V2f& offset) {
+  const float turn = std::atan2(offset.y, offset.x) / (2.0f * pi) + 0.5f;
+  const auto sector = static_cast<std::size_t>(turn * IrradianceRecord::sector_count);
+  return std::min(sector, IrradianceRecord::sector_count - 1);
+}
+
+}  // namespace
+
+IrradianceCache::IrradianceCache(const TracedScene& scene, const ValidityParts& parts,
+                                 std::uint64_t max_bytes)
+    : scene_(scene), parts_(parts), max_bytes_(max_bytes) {}
+
+float IrradianceCache::least_reach(float footprint, float budget) {
+  return least_pixels * footprint / std::sqrt(std::sqrt(budget));
+}
+
+std::uint64_t IrradianceCache::bytes() const {
+  return std::uint64_t{size()} * (sizeof(IrradianceRecord) + point_bytes);
+}
+
+bool IrradianceCache::full() const {
+  return bytes() + sizeof(IrradianceRecord) + point_bytes > max_bytes_;
+}
+
+bool IrradianceCache::insert(const IrradianceRecord& record) {
+  if (full()) return false;
+  for (std::size_t c = 0; c < 3; ++c) {
+    assert(std::isfinite(record.light.vector[c].length2()) && record.light.flux[int(c)] >= 0.0f);
+  }
+  assert(std::isfinite(record.radius_large) && record.radius_small >= 0.0f);
+  tree_.insert(record.position, reach(record), [&](std::uint32_t index) {
+    while (records_.size() <= index) records_.grow();
+    records_[index] = record;
+  });
+  return true;
+}
+
+// 1 at the record, 0 from the rim of its ellipse on, and smooth in between.
+float IrradianceCache::weight(const IrradianceRecord& r, const CachePoint& point, float scale,
+                              V2f& offset) const {
+  const float cosine = point.normal.dot(r.normal);
+  if (cosine <= least_normal_cosine) return 0.0f;
+  const float least =
+      parts_.footprint_clamp ? std::min(least_pixels * point.footprint, r.mean_distance) : 0.0f;
+  const float large = std::max(r.radius_large * scale, least);
+  const float small = std::max(r.radius_small * scale, least);
+  if (!(small > 0.0f)) return 0.0f;
+  const V3f d = point.position - r.position;
+  const float off = d.dot(r.normal) / (off_plane_reach * small);
+  const Frame frame = make_frame(r.normal);
+  offset = V2f(d.dot(frame.t), d.dot(frame.b));
+  const float along = (offset.x * r.axis.x + offset.y * r.axis.y) / small;
+  const float across = (offset.y * r.axis.x - offset.x * r.axis.y) / large;
+  const float m2 = along * along + across * across + off * off;
+  if (m2 >= 1.0f) return 0.0f;
+  return (1.0f - m2) * (1.0f - m2) * (cosine - least_normal_cosine) / (1.0f - least_normal_cosine);
+}
+
+bool IrradianceCache::may_be_hidden(const IrradianceRecord& record, const V2f& offset) const {
+  return parts_.leak_guard && offset.length() > record.clearance[sector_of(offset)];
+}
+
+bool IrradianceCache::look_up(const CachePoint& point, float budget, float needed_weight,
+                              CachedLight& result, std::uint64_t& visibility_rays) const {
+  const float scale = std::sqrt(std::sqrt(budget));
+  LightSum sum;
+  float total = 0.0f;
+  int count = 0;
+  const auto visit = [&](std::uint32_t index, float distance2) {
+    const IrradianceRecord& r = records_[index];
+    V2f offset(0.0f);
+    const float w = weight(r, point, scale, offset);
+    if (!(w > 0.0f)) return;
+    if (may_be_hidden(r, offset)) {
+      const float height = lift * std::sqrt(distance2);
+      const V3f from = point.position + point.geometric_normal * (point.error + height);
+      const V3f to = r.position + r.normal * (point.error + height);
+      ++visibility_rays;
+      if (scene_.intersect(from, to - from, 0.0f, 1.0f, 0u).valid()) return;
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      float gain = 1.0f;
+      const float here = r.light.vector[c].dot(r.normal);
+      if (parts_.gradient && here > 0.0f) {
+        gain = std::clamp(1.0f + r.gradient[c].dot(offset) / here, least_gain, most_gain);
+      }
+      sum.vector[c] += (w * gain) * r.light.vector[c];
+      sum.flux[int(c)] += w * gain * r.light.flux[int(c)];
+    }
+    total += w;
+    ++count;
+  };
+  tree_.for_each_reaching(point.position, scale, visit);
+  if (!(total >= needed_weight) || !(total > 0.0f)) return false;
+  const float normalise = 1.0f / total;
+  for (std::size_t c = 0; c < 3; ++c) sum.vector[c] *= normalise;
+  sum.flux *= normalise;
+  result = {sum, point.normal, total, count};
+  return true;
+}
+
+void IrradianceCache::commit(float budget) {
+  const std::uint32_t n = size();
+  std::vector<float> clamped(n);
+  const float scale = std::sqrt(std::sqrt(budget));
+  for (std::uint32_t i = 0; i < n; ++i) clamped[i] = records_[i].radius_large;
+  tree_.rebuild([&](std::uint32_t i) { return reach(records_[i]); });
+  if (!parts_.neighbour_clamp || !(scale > 0.0f)) return;
+  // R_i ≤ R_j + |x_i − x_j| for all neighbours j: those that reach i's place, or that i reaches.
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const IrradianceRecord& r = records_[i];
+    tree_.for_each_reaching(r.position, scale, [&](std::uint32_t j, float distance2) {
+      const IrradianceRecord& other = records_[j];
+      if (j == i || other.normal.dot(r.normal) <= least_normal_cosine) return;
+      const float bound = r.radius_small + std::sqrt(distance2) / scale;
+      clamped[j] = std::min(clamped[j], bound);
+    });
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    IrradianceRecord& r = records_[i];
+    r.radius_large = clamped[i];
+    r.radius_small = std::min(r.radius_small, clamped[i]);
+  }
+  tree_.rebuild([&](std::uint32_t i) { return reach(records_[i]); });
+}
+
+}  // namespace lumivec
