@@ -18,8 +18,20 @@ constexpr int first_stride = 32;  // pixels
 constexpr float wanted_weight = 0.4f;
 // Pixels make do with less: what lies between places that were asked for.
 constexpr float needed_weight = 0.05f;
+// Paths that gather light are this far apart, radians: √(2π / cells).
+constexpr float gather_spread = 0.09f;
 // Records that are made at a time, without knowing of each other.
 constexpr std::size_t batch_size = 64;
+
+// What the making of records adds to the counts of a picture.
+void add(const RenderStatistics& from, RenderStatistics& to) {
+  to.rays_camera += from.rays_camera;
+  to.rays_scatter += from.rays_scatter;
+  to.rays_shadow += from.rays_shadow;
+  to.rays_visibility += from.rays_visibility;
+  to.gather_paths += from.gather_paths;
+  for (std::size_t t = 0; t < term_count; ++t) to.dropped[t] += from.dropped[t];
+}
 
 template <typename Body>
 void for_each(std::size_t count, const Body& body) {
@@ -63,9 +75,7 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
     RenderStatistics counts;
     tracer_.render_tile(tiles[i], 0, 1, sums, counts, asking);
     const std::lock_guard lock(mutex);
-    statistics.rays_camera += counts.rays_camera;
-    statistics.rays_scatter += counts.rays_scatter;
-    statistics.rays_visibility += counts.rays_visibility;
+    add(counts, statistics);
   });
   std::vector<RecordRequest> all;
   for (const std::vector<RecordRequest>& some : found) {
@@ -119,10 +129,7 @@ bool CacheBuilder::make_records(std::vector<RecordRequest>& requests,
       const float footprint = requests[batch[i]].point.footprint;
       records[i].least_reach = IrradianceCache::least_reach(footprint, budget_);
       const std::lock_guard lock(mutex);
-      statistics.gather_paths += counts.gather_paths;
-      statistics.rays_scatter += counts.rays_scatter;
-      statistics.rays_shadow += counts.rays_shadow;
-      for (std::size_t t = 0; t < term_count; ++t) statistics.dropped[t] += counts.dropped[t];
+      add(counts, statistics);
     });
     for (std::size_t i = 0; i < batch.size(); ++i) {
       if (!cache_.insert(records[i])) return true;  // full: pixels trace what they do not find
@@ -144,23 +151,37 @@ bool CacheBuilder::fill(const std::vector<Tile>& tiles, const std::function<bool
 
 bool CacheBuilder::refine(std::uint32_t passes, const std::function<bool()>& go_on,
                           RenderStatistics& statistics) {
-  constexpr std::size_t group = 256;
+  constexpr std::size_t group = 64;
+  // Paths end in the records of the round before, which are replaced when all are done: what a
+  // round brings does not depend on the order in which it is made.
+  CacheUse ends = use();
+  ends.spread = gather_spread;
+  std::vector<IrradianceRecord> refined;
   std::mutex mutex;
-  for (std::size_t first = 0; first < places_.size(); first += group) {
-    if (!go_on()) return false;
-    for_each(std::min(group, places_.size() - first), [&](std::size_t i) {
-      const auto index = static_cast<std::uint32_t>(first + i);
-      RenderStatistics counts;
-      IrradianceRecord& record = cache_.edit(index);
-      const std::uint32_t seed =
-          hash_combine(static_cast<std::uint32_t>(settings_.seed), 0x5eed0000u + index);
-      while (record.passes < passes) gather_.refine(record, places_[index], seed, counts);
-      const std::lock_guard lock(mutex);
-      statistics.gather_paths += counts.gather_paths;
-      statistics.rays_scatter += counts.rays_scatter;
-      statistics.rays_shadow += counts.rays_shadow;
-    });
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    cache_.commit(budget_);
+    refined.assign(places_.size(), IrradianceRecord());
+    for (std::size_t first = 0; first < places_.size(); first += group) {
+      if (!go_on()) return false;
+      for_each(std::min(group, places_.size() - first), [&](std::size_t i) {
+        const std::size_t index = first + i;
+        RenderStatistics counts;
+        IrradianceRecord record = cache_.record(static_cast<std::uint32_t>(index));
+        if (pass == 0 && record.passes == 1)
+          record.passes = 0;  // whole paths are noisy: start anew
+        const std::uint32_t seed = hash_combine(static_cast<std::uint32_t>(settings_.seed),
+                                                0x5eed0000u + static_cast<std::uint32_t>(index));
+        gather_.refine(record, places_[index], hash_combine(seed, pass), counts, ends);
+        refined[index] = record;
+        const std::lock_guard lock(mutex);
+        add(counts, statistics);
+      });
+    }
+    for (std::size_t i = 0; i < refined.size(); ++i) {
+      cache_.edit(static_cast<std::uint32_t>(i)) = refined[i];
+    }
   }
+  cache_.commit(budget_);
   return true;
 }
 

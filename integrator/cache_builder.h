@@ -23,7 +23,8 @@ class CacheBuilder {
   bool fill(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
             RenderStatistics& statistics);
 
-  // Averages hemispheres into all records until each has that many.
+  // Averages so many more hemispheres into all records, whose paths end in the cache. The first
+  // such replaces what whole paths brought.
   bool refine(std::uint32_t passes, const std::function<bool()>& go_on,
               RenderStatistics& statistics);
 

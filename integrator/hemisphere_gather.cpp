@@ -45,14 +45,16 @@ struct HemisphereGather::Hemisphere {
   std::array<V3f, cells> direction;  // in the axes of the frame
 
   void trace(const PathTracer& tracer, const TracedScene& scene, const RecordRequest& request,
-             const Frame& frame, std::uint32_t seed, RenderStatistics& statistics);
+             const Frame& frame, std::uint32_t seed, RenderStatistics& statistics,
+             const CacheUse& cache);
   void sum(const Frame& frame);
   void differentiate();
 };
 
 void HemisphereGather::Hemisphere::trace(const PathTracer& tracer, const TracedScene& scene,
                                          const RecordRequest& request, const Frame& frame,
-                                         std::uint32_t seed, RenderStatistics& statistics) {
+                                         std::uint32_t seed, RenderStatistics& statistics,
+                                         const CacheUse& cache) {
   thread_local std::vector<GatherRay> rays;
   thread_local std::vector<GatherResult> results;
   rays.clear();
@@ -82,7 +84,7 @@ void HemisphereGather::Hemisphere::trace(const PathTracer& tracer, const TracedS
       rays.push_back({origin, world, static_cast<std::uint32_t>(cell)});
     }
   }
-  tracer.gather(rays, request.media, seed, results, statistics);
+  tracer.gather(rays, request.media, seed, results, statistics, cache);
   const float most = far_away * scene.radius();
   for (std::size_t i = 0; i < cells; ++i) {
     distance[i] = most;
@@ -148,9 +150,9 @@ void HemisphereGather::Hemisphere::sum(const Frame& frame) {
 // Triangles between neighbouring cells' hits, and a ring on the horizon below the lowest.
 void HemisphereGather::Hemisphere::differentiate() {
   constexpr int loops = rings + 1;
-  std::array<V3d, std::size_t(loops* sectors)> vertex;
-  std::array<Color, std::size_t(loops* sectors)> light_at;
-  std::array<double, std::size_t(loops* sectors)> far;
+  std::array<V3d, std::size_t(loops * sectors)> vertex;
+  std::array<Color, std::size_t(loops * sectors)> light_at;
+  std::array<double, std::size_t(loops * sectors)> far;
   for (int j = 0; j < loops; ++j) {
     for (int k = 0; k < sectors; ++k) {
       const auto to = static_cast<std::size_t>(j * sectors + k);
@@ -195,8 +197,12 @@ void HemisphereGather::Hemisphere::differentiate() {
     return static_cast<std::size_t>(j * sectors + (k + sectors) % sectors);
   };
   // Each cell between loops j and j + 1 has an upper triangle (its edge on loop j) and a lower one.
-  const auto upper = [&](int j, int k) { return triangle_light(at(j, k), at(j + 1, k + 1), at(j, k + 1)); };
-  const auto lower = [&](int j, int k) { return triangle_light(at(j, k), at(j + 1, k), at(j + 1, k + 1)); };
+  const auto upper = [&](int j, int k) {
+    return triangle_light(at(j, k), at(j + 1, k + 1), at(j, k + 1));
+  };
+  const auto lower = [&](int j, int k) {
+    return triangle_light(at(j, k), at(j + 1, k), at(j + 1, k + 1));
+  };
   Color pole(0.0f);
   for (int k = 0; k < sectors; ++k) pole += light_at[at(0, k)] * (1.0f / sectors);
   std::array<Color, sectors> above;
@@ -266,19 +272,19 @@ void HemisphereGather::set_radii(IrradianceRecord& r) const {
 }
 
 IrradianceRecord HemisphereGather::make(const RecordRequest& request, std::uint32_t seed,
-                                        RenderStatistics& statistics) const {
+                                        RenderStatistics& statistics, const CacheUse& cache) const {
   IrradianceRecord record;
   record.position = request.point.position;
   record.normal = request.point.normal;
-  refine(record, request, seed, statistics);
+  refine(record, request, seed, statistics, cache);
   return record;
 }
 
-void HemisphereGather::refine(IrradianceRecord& r, const RecordRequest& request,
-                              std::uint32_t seed, RenderStatistics& statistics) const {
+void HemisphereGather::refine(IrradianceRecord& r, const RecordRequest& request, std::uint32_t seed,
+                              RenderStatistics& statistics, const CacheUse& cache) const {
   const Frame frame = make_frame(r.normal);
   Hemisphere h;
-  h.trace(tracer_, scene_, request, frame, hash_combine(seed, r.passes), statistics);
+  h.trace(tracer_, scene_, request, frame, hash_combine(seed, r.passes), statistics, cache);
   h.sum(frame);
   h.differentiate();
   const float share = 1.0f / static_cast<float>(r.passes + 1);

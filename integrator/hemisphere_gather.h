@@ -3,7 +3,8 @@
 //
 // The cells have equal shares of the cosine-weighted hemisphere. Neighbouring cells' hits span
 // triangles that stay in place when the point moves, so that the derivatives see what is uncovered
-// behind near things (Schwarzhaupt, Jensen and Jarosz 2012). About 0.7 ms a hemisphere of 768 paths.
+// behind near things (Schwarzhaupt, Jensen and Jarosz 2012). About 0.7 ms a hemisphere of 768
+// paths.
 #pragma once
 
 #include "integrator/irradiance_cache.h"
@@ -20,12 +21,13 @@ class HemisphereGather {
                    float budget);
 
   // A record of one hemisphere. seed: of its random numbers.
+  // cache: where the paths may end.
   IrradianceRecord make(const RecordRequest& request, std::uint32_t seed,
-                        RenderStatistics& statistics) const;
+                        RenderStatistics& statistics, const CacheUse& cache = {}) const;
 
   // Averages one more hemisphere into a record.
   void refine(IrradianceRecord& record, const RecordRequest& request, std::uint32_t seed,
-              RenderStatistics& statistics) const;
+              RenderStatistics& statistics, const CacheUse& cache = {}) const;
 
   static constexpr int rings = 16, sectors = 48;  // cells by elevation and azimuth
   static constexpr int cells = rings * sectors;

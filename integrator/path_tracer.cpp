@@ -115,8 +115,8 @@ struct Lane {
   std::uint32_t seed = 0;          // of the pixel
   std::uint32_t continuation = 0;  // of the splits that leave the first vertex
   std::uint32_t splits = usual_splits;
-  bool probe = false;     // left a diffuse lobe whose other light is cached: brings caustics alone
-  float length = 0.0f;    // of the path from the eye, scene units
+  bool probe = false;   // left a diffuse lobe whose other light is cached: brings caustics alone
+  float length = 0.0f;  // of the path from the eye, scene units
   std::optional<Fork> fork;
   int depth = 0;  // scattering events so far
 
@@ -180,9 +180,11 @@ class PathStream {
 
   // For paths that gather light.
   PathStream(const PathTracer& tracer, const std::vector<GatherRay>& rays, const MediumStack& media,
-             std::uint32_t seed, std::vector<GatherResult>& results, RenderStatistics& statistics)
+             std::uint32_t seed, std::vector<GatherResult>& results, RenderStatistics& statistics,
+             const CacheUse& cache)
       : t_(tracer),
         path_count_(rays.size()),
+        cache_(cache),
         terms_(term_bit(Term::indirect)),
         rays_to_gather_(&rays),
         gather_media_(media),
@@ -427,8 +429,7 @@ class PathStream {
     if (lane.probe) bsdf = bsdf.with_only(kind_bit(LobeKind::specular));
     const bool passes = parameters.transmission > 0.0f;
     const V3f receiver = passes ? V3f(0.0f) : point.geometric_normal;
-    const bool may_sample_lights =
-        bsdf.has_non_delta() && !t_.lights_.empty() && !cache_.requests;
+    const bool may_sample_lights = bsdf.has_non_delta() && !t_.lights_.empty() && !cache_.requests;
     if (cache_.indirect && !lane.probe && bsdf.has(LobeKind::diffuse)) {
       const bool cached = use_cache(lane, point, bsdf);
       if (cached || cache_.requests) {
@@ -452,8 +453,12 @@ class PathStream {
     at.geometric_normal = point.geometric_normal;
     at.normal = point.normal;
     at.error = point.error;
-    at.footprint = t_.camera_.footprint(lane.length);
-    if (lane.caustic.scattered) at.footprint *= scattered_footprint;
+    if (results_) {
+      at.footprint = cache_.spread * lane.length;
+    } else {
+      at.footprint = t_.camera_.footprint(lane.length);
+      if (lane.caustic.scattered) at.footprint *= scattered_footprint;
+    }
     CachedLight light;
     if (!cache_.indirect->look_up(at, cache_.budget, cache_.needed_weight, light,
                                   statistics_.rays_visibility)) {
@@ -469,8 +474,9 @@ class PathStream {
 
   // Direct and caustic light of the diffuse lobe, whose indirect light is cached, and all light of
   // the others.
-  void shade_beside_cache(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
-                          const Bsdf& bsdf, const V3f& receiver, bool may_sample_lights) {
+  void shade_beside_cache(Lane& lane, const SurfacePoint& point,
+                          const SurfaceParameters& parameters, const Bsdf& bsdf,
+                          const V3f& receiver, bool may_sample_lights) {
     const bool probes = t_.eye_paths_find_caustics_ && !cache_.requests;
     if (probes) {
       if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, true);
@@ -694,9 +700,9 @@ void PathTracer::render_tile(const Tile& tile, std::uint32_t first_sample,
 
 void PathTracer::gather(const std::vector<GatherRay>& rays, const MediumStack& media,
                         std::uint32_t seed, std::vector<GatherResult>& results,
-                        RenderStatistics& statistics) const {
+                        RenderStatistics& statistics, const CacheUse& cache) const {
   results.resize(rays.size(), GatherResult());
-  PathStream stream(*this, rays, media, seed, results, statistics);
+  PathStream stream(*this, rays, media, seed, results, statistics, cache);
   stream.run();
 }
 

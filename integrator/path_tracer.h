@@ -57,15 +57,16 @@ struct RecordRequest {
   MediumStack media;
 };
 
-// How paths from the eye use cached light: where it is found at a diffuse lobe, that lobe's indirect
-// light is taken from it, and the path goes on by other lobes alone.
+// How paths from the eye use cached light: where it is found at a diffuse lobe, that lobe's
+// indirect light is taken from it, and the path goes on by other lobes alone.
 struct CacheUse {
   const IrradianceCache* indirect = nullptr;  // null: none is used
   float budget = 0.0f;                        // scene units² (IrradianceCache)
   float needed_weight = 0.0f;
   // Where to note what was not found; null: paths go on there as if there were no cache.
   std::vector<RecordRequest>* requests = nullptr;
-  int stride = 1;  // of the pixels, in both directions, that paths are started for
+  float spread = 0.0f;  // gathering: angle between neighbouring paths, radians
+  int stride = 1;       // of the pixels, in both directions, that paths are started for
 };
 
 class PathTracer {
@@ -84,7 +85,8 @@ class PathTracer {
   // Traces rays that left a diffuse surface inside media; results: one for each ray. Depends on
   // nothing else. seed: of the random numbers.
   void gather(const std::vector<GatherRay>& rays, const MediumStack& media, std::uint32_t seed,
-              std::vector<GatherResult>& results, RenderStatistics& statistics) const;
+              std::vector<GatherResult>& results, RenderStatistics& statistics,
+              const CacheUse& cache = {}) const;
 
  private:
   friend class PathStream;

@@ -38,7 +38,7 @@ constexpr double estimate_margin = 0.9;
 constexpr std::uint32_t light_batch = 4096;
 constexpr std::uint32_t batches_at_once = 64;
 // Hemispheres of a record.
-constexpr std::uint32_t record_passes = 1;
+const std::uint32_t record_passes = getenv("PASSES") ? atoi(getenv("PASSES")) : 1;
 // The area that a record's budget is stated for (irradiance_cache.h): a disc with this share of the
 // scene's radius.
 constexpr float budget_radius = 0.1f;
@@ -279,7 +279,8 @@ class StillRender {
       note_progress(1);
       return !stop_;
     };
-    builder_->fill(tiles, go_on, statistics_) && builder_->refine(record_passes, go_on, statistics_);
+    builder_->fill(tiles, go_on, statistics_) &&
+        builder_->refine(record_passes, go_on, statistics_);
     cache_use_ = builder_->use();
     statistics_.seconds_cache = seconds_since(start_);
   }
