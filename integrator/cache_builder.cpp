@@ -20,6 +20,8 @@ constexpr float wanted_weight = 0.4f;
 constexpr float needed_weight = 0.05f;
 // Paths that gather light are this far apart, radians: √(2π / cells).
 constexpr float gather_spread = 0.09f;
+// Below so many records paths are traced to their own ends: the cache has seen too little.
+constexpr std::uint32_t fewest_to_end_in = 512;
 // Records that are made at a time, without knowing of each other.
 constexpr std::size_t batch_size = 64;
 
@@ -48,11 +50,21 @@ void for_each(std::size_t count, const Body& body) {
 
 CacheBuilder::CacheBuilder(const PathTracer& tracer, const TracedScene& scene,
                            const RenderSettings& settings, IrradianceCache& cache, float budget)
-    : tracer_(tracer),
-      settings_(settings),
-      cache_(cache),
-      budget_(budget),
-      gather_(tracer, scene, settings.validity_parts, budget) {}
+    : tracer_(tracer), settings_(settings), cache_(cache), scene_(scene) {
+  set_budget(budget);
+}
+
+void CacheBuilder::set_budget(float budget) {
+  budget_ = budget;
+  gather_.emplace(tracer_, scene_, settings_.validity_parts, budget);
+}
+
+CacheUse CacheBuilder::path_ends() const {
+  CacheUse ends = use();
+  if (cache_.size() < fewest_to_end_in) ends.indirect = nullptr;
+  ends.spread = gather_spread;
+  return ends;
+}
 
 CacheUse CacheBuilder::use() const {
   CacheUse use;
@@ -70,10 +82,18 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
     CacheUse asking = use();
     asking.needed_weight = wanted_weight;
     asking.requests = &found[i];
-    asking.stride = stride;
-    std::vector<PixelSums> sums(std::size_t(tiles[i].width) * std::size_t(tiles[i].height));
+    const Tile& tile = tiles[i];
+    std::vector<SampleRange> pixels;
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x) {
+        if ((tile.x + x) % stride != stride / 2 || (tile.y + y) % stride != stride / 2) continue;
+        pixels.push_back({static_cast<std::uint32_t>(y * tile.width + x), 0, 1});
+      }
+    }
+    if (pixels.empty()) return;
+    std::vector<PixelSums> sums(std::size_t(tile.width) * std::size_t(tile.height));
     RenderStatistics counts;
-    tracer_.render_tile(tiles[i], 0, 1, sums, counts, asking);
+    tracer_.render_ranges(tile, pixels, sums, counts, asking);
     const std::lock_guard lock(mutex);
     add(counts, statistics);
   });
@@ -125,7 +145,8 @@ bool CacheBuilder::make_records(std::vector<RecordRequest>& requests,
     for_each(batch.size(), [&](std::size_t i) {
       RenderStatistics counts;
       const auto number = static_cast<std::uint32_t>(places_.size() + i);
-      records[i] = gather_.make(requests[batch[i]], hash_combine(seed, number), counts);
+      records[i] =
+          gather_->make(requests[batch[i]], hash_combine(seed, number), counts, path_ends());
       const float footprint = requests[batch[i]].point.footprint;
       records[i].least_reach = IrradianceCache::least_reach(footprint, budget_);
       const std::lock_guard lock(mutex);
@@ -152,34 +173,38 @@ bool CacheBuilder::fill(const std::vector<Tile>& tiles, const std::function<bool
 bool CacheBuilder::refine(std::uint32_t passes, const std::function<bool()>& go_on,
                           RenderStatistics& statistics) {
   constexpr std::size_t group = 64;
-  // Paths end in the records of the round before, which are replaced when all are done: what a
-  // round brings does not depend on the order in which it is made.
-  CacheUse ends = use();
-  ends.spread = gather_spread;
   std::vector<IrradianceRecord> refined;
   std::mutex mutex;
-  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+  while (true) {
+    std::vector<std::uint32_t> wanting;
+    for (std::uint32_t i = 0; i < places_.size(); ++i) {
+      if (!settled_ || cache_.record(i).passes < passes) wanting.push_back(i);
+    }
+    if (wanting.empty()) break;
+    // Paths end in the records of the round before, which are replaced when all are done: what a
+    // round brings does not depend on the order in which it is made.
     cache_.commit(budget_);
-    refined.assign(places_.size(), IrradianceRecord());
-    for (std::size_t first = 0; first < places_.size(); first += group) {
+    const CacheUse ends = path_ends();
+    refined.assign(wanting.size(), IrradianceRecord());
+    for (std::size_t first = 0; first < wanting.size(); first += group) {
       if (!go_on()) return false;
-      for_each(std::min(group, places_.size() - first), [&](std::size_t i) {
-        const std::size_t index = first + i;
+      for_each(std::min(group, wanting.size() - first), [&](std::size_t i) {
+        const std::uint32_t index = wanting[first + i];
         RenderStatistics counts;
-        IrradianceRecord record = cache_.record(static_cast<std::uint32_t>(index));
-        if (pass == 0 && record.passes == 1)
-          record.passes = 0;  // whole paths are noisy: start anew
-        const std::uint32_t seed = hash_combine(static_cast<std::uint32_t>(settings_.seed),
-                                                0x5eed0000u + static_cast<std::uint32_t>(index));
-        gather_.refine(record, places_[index], hash_combine(seed, pass), counts, ends);
-        refined[index] = record;
+        IrradianceRecord record = cache_.record(index);
+        // What whole paths brought is noisy, and what ended in records of such paths is too.
+        if (!settled_) record.passes = 0;
+        const std::uint32_t seed = hash_combine(
+            hash_combine(static_cast<std::uint32_t>(settings_.seed), 0x5eed0000u + index),
+            settled_ ? 1u : 0u);
+        gather_->refine(record, places_[index], seed, counts, ends);
+        refined[first + i] = record;
         const std::lock_guard lock(mutex);
         add(counts, statistics);
       });
     }
-    for (std::size_t i = 0; i < refined.size(); ++i) {
-      cache_.edit(static_cast<std::uint32_t>(i)) = refined[i];
-    }
+    for (std::size_t i = 0; i < wanting.size(); ++i) cache_.edit(wanting[i]) = refined[i];
+    settled_ = true;
   }
   cache_.commit(budget_);
   return true;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "integrator/hemisphere_gather.h"
@@ -18,6 +19,10 @@ class CacheBuilder {
   // budget: scene units², see IrradianceCache. All must outlive this.
   CacheBuilder(const PathTracer& tracer, const TracedScene& scene, const RenderSettings& settings,
                IrradianceCache& cache, float budget);
+
+  // Another budget for what is made and looked up from now on.
+  void set_budget(float budget);
+  float budget() const { return budget_; }
 
   // Makes what the tiles lack. go_on is asked between batches; false ends it early. False: ended.
   bool fill(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
@@ -35,6 +40,8 @@ class CacheBuilder {
   double noise() const;
 
  private:
+  // Where paths that gather light may end.
+  CacheUse path_ends() const;
   std::vector<RecordRequest> collect(const std::vector<Tile>& tiles, int stride,
                                      RenderStatistics& statistics) const;
   bool make_records(std::vector<RecordRequest>& requests, const std::function<bool()>& go_on,
@@ -43,8 +50,10 @@ class CacheBuilder {
   const PathTracer& tracer_;
   const RenderSettings& settings_;
   IrradianceCache& cache_;
-  const float budget_;
-  const HemisphereGather gather_;
+  const TracedScene& scene_;
+  float budget_ = 0.0f;
+  std::optional<HemisphereGather> gather_;
+  bool settled_ = false;               // all records have been made by paths that end in the cache
   std::vector<RecordRequest> places_;  // of the records, to refine them
 };
 

@@ -39,6 +39,10 @@ float max_component(const Color& c) {
   return std::max({c.x, c.y, c.z});
 }
 
+float mean(const Color& c) {
+  return (c.x + c.y + c.z) * (1.0f / 3.0f);
+}
+
 bool is_black(const Color& c) {
   return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f;
 }
@@ -178,6 +182,18 @@ class PathStream {
         sums_(&sums),
         statistics_(statistics) {}
 
+  // ranges: none empty.
+  PathStream(const PathTracer& tracer, const Tile& tile, const std::vector<SampleRange>& ranges,
+             std::vector<PixelSums>& sums, RenderStatistics& statistics, const CacheUse& cache)
+      : t_(tracer),
+        tile_(tile),
+        path_count_(count(ranges)),
+        cache_(cache),
+        terms_(tracer.settings_.terms),
+        sums_(&sums),
+        ranges_(&ranges),
+        statistics_(statistics) {}
+
   // For paths that gather light.
   PathStream(const PathTracer& tracer, const std::vector<GatherRay>& rays, const MediumStack& media,
              std::uint32_t seed, std::vector<GatherResult>& results, RenderStatistics& statistics,
@@ -207,11 +223,17 @@ class PathStream {
   }
 
  private:
+  static std::uint64_t count(const std::vector<SampleRange>& ranges) {
+    std::uint64_t samples = 0;
+    for (const SampleRange& range : ranges) samples += range.count;
+    return samples;
+  }
+
   // Starts paths in idle lanes; false when none are left and none run.
   bool fill() {
     bool any = false;
     for (Lane& lane : lanes_) {
-      while (!lane.active && next_path_ < path_count_) {
+      if (!lane.active && next_path_ < path_count_) {
         results_ ? start_gathering(lane, next_path_++) : start(lane, next_path_++);
       }
       any = any || lane.active;
@@ -223,17 +245,22 @@ class PathStream {
     lane = Lane();
     lane.active = true;
     lane.camera_ray = true;
-    lane.pixel = static_cast<std::uint32_t>(path % pixel_count_);
-    lane.sample = first_sample_ + static_cast<std::uint32_t>(path / pixel_count_);
+    if (ranges_) {
+      const SampleRange& range = (*ranges_)[range_];
+      lane.pixel = range.pixel;
+      lane.sample = range.first + within_range_;
+      if (++within_range_ == range.count) {
+        ++range_;
+        within_range_ = 0;
+      }
+    } else {
+      lane.pixel = static_cast<std::uint32_t>(path % pixel_count_);
+      lane.sample = first_sample_ + static_cast<std::uint32_t>(path / pixel_count_);
+    }
     const int x = tile_.x + static_cast<int>(lane.pixel) % tile_.width;
     const int y = tile_.y + static_cast<int>(lane.pixel) / tile_.width;
     const auto seed_low = static_cast<std::uint32_t>(t_.settings_.seed);
     const auto seed_high = static_cast<std::uint32_t>(t_.settings_.seed >> 32);
-    const int stride = cache_.stride;
-    if (stride > 1 && (x % stride != stride / 2 || y % stride != stride / 2)) {
-      lane.active = false;
-      return;
-    }
     if (cache_.indirect) lane.splits = 1;
     lane.seed =
         hash_combine(hash_combine(hash_combine(seed_low, seed_high), static_cast<std::uint32_t>(x)),
@@ -644,9 +671,13 @@ class PathStream {
       sums.object = lane.object;
     }
     if (!finite) return;
+    float brightness = 0.0f;
     for (std::size_t i = 0; i < term_count; ++i) {
-      if (terms_ & (1u << i)) sums.terms[i] += lane.radiance[i];
+      if ((terms_ & (1u << i)) == 0) continue;
+      sums.terms[i] += lane.radiance[i];
+      brightness += mean(lane.radiance[i]);
     }
+    sums.squares += brightness * brightness;
     sums.albedo += lane.albedo;
     sums.normal += lane.normal;
     ++sums.samples;
@@ -662,6 +693,9 @@ class PathStream {
   const CacheUse cache_ = {};
   const std::uint32_t terms_;
   std::vector<PixelSums>* sums_ = nullptr;
+  const std::vector<SampleRange>* ranges_ = nullptr;
+  std::size_t range_ = 0;
+  std::uint32_t within_range_ = 0;
   const std::vector<GatherRay>* rays_to_gather_ = nullptr;
   MediumStack gather_media_;
   std::uint32_t gather_seed_ = 0;
@@ -695,6 +729,13 @@ void PathTracer::render_tile(const Tile& tile, std::uint32_t first_sample,
                              std::uint32_t sample_count, std::vector<PixelSums>& sums,
                              RenderStatistics& statistics, const CacheUse& cache) const {
   PathStream stream(*this, tile, first_sample, sample_count, sums, statistics, cache);
+  stream.run();
+}
+
+void PathTracer::render_ranges(const Tile& tile, const std::vector<SampleRange>& ranges,
+                               std::vector<PixelSums>& sums, RenderStatistics& statistics,
+                               const CacheUse& cache) const {
+  PathStream stream(*this, tile, ranges, sums, statistics, cache);
   stream.run();
 }
 

@@ -33,8 +33,15 @@ struct PixelSums {
       std::numeric_limits<float>::infinity();  // of the first sample; +inf: nothing was hit
   std::int32_t object = -1;
   std::uint32_t samples = 0;
+  float squares = 0.0f;  // of the samples' brightness, the mean of the channels of all terms
 
   PixelSums() { terms.fill(Color(0.0f)); }
+};
+
+// Samples [first, first + count) of one pixel of a tile.
+struct SampleRange {
+  std::uint32_t pixel = 0;  // row by row
+  std::uint32_t first = 0, count = 0;
 };
 
 struct Tile {
@@ -66,7 +73,6 @@ struct CacheUse {
   // Where to note what was not found; null: paths go on there as if there were no cache.
   std::vector<RecordRequest>* requests = nullptr;
   float spread = 0.0f;  // gathering: angle between neighbouring paths, radians
-  int stride = 1;       // of the pixels, in both directions, that paths are started for
 };
 
 class PathTracer {
@@ -81,6 +87,11 @@ class PathTracer {
   void render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t sample_count,
                    std::vector<PixelSums>& sums, RenderStatistics& statistics,
                    const CacheUse& cache = {}) const;
+
+  // Likewise the samples of ranges alone.
+  void render_ranges(const Tile& tile, const std::vector<SampleRange>& ranges,
+                     std::vector<PixelSums>& sums, RenderStatistics& statistics,
+                     const CacheUse& cache = {}) const;
 
   // Traces rays that left a diffuse surface inside media; results: one for each ray. Depends on
   // nothing else. seed: of the random numbers.

@@ -37,6 +37,8 @@ constexpr double estimate_margin = 0.9;
 // not show.
 constexpr std::uint32_t light_batch = 4096;
 constexpr std::uint32_t batches_at_once = 64;
+// With cached light, pixels all have so many samples before any has more.
+constexpr std::uint32_t even_samples = 4;
 // Hemispheres of a record.
 const std::uint32_t record_passes = getenv("PASSES") ? atoi(getenv("PASSES")) : 1;
 // The area that a record's budget is stated for (irradiance_cache.h): a disc with this share of the
@@ -97,6 +99,7 @@ class Film {
         to.albedo += from.albedo;
         to.normal += from.normal;
         to.samples += from.samples;
+        to.squares += from.squares;
         if (!first_pass) continue;
         to.position = from.position;
         to.depth = from.depth;
@@ -128,6 +131,45 @@ class Film {
     Color sum(0.0f);
     for (std::size_t term = 0; term < term_count; ++term) sum += mean(i, term);
     return sum;
+  }
+
+  // Estimated from the spread of its samples: the variance of pixel i's mean brightness, relative
+  // as in relMSE.
+  double relative_variance(std::size_t i) const {
+    const PixelSums& p = pixels_[i];
+    if (p.samples < 2) return 0.0;
+    const double n = p.samples;
+    double sum = 0.0;
+    for (const Color& c : p.terms) sum += (double(c.x) + c.y + c.z) / 3.0;
+    const double mean = sum / n;
+    const double variance = std::max(0.0, double(p.squares) / n - mean * mean) / (n - 1.0);
+    return variance / (mean * mean + 0.01);
+  }
+
+  // Of one sample, √: what a pixel's number of samples should be in proportion to. Taken from the
+  // pixel and those around it, since one that has met nothing yet looks calm.
+  std::vector<float> spread() const {
+    std::vector<float> own(pixels_.size()), result(pixels_.size());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      own[i] = static_cast<float>(std::sqrt(relative_variance(i) * pixels_[i].samples));
+    }
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        const auto at = [&](int i, int j) {
+          return own[std::size_t(j) * std::size_t(width_) + std::size_t(i)];
+        };
+        constexpr float neighbour_share = 0.5f;
+        float most = 0.0f;
+        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height_ - 1); ++j) {
+          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width_ - 1); ++i) {
+            most = std::max(most, at(i, j));
+          }
+        }
+        result[std::size_t(y) * std::size_t(width_) + std::size_t(x)] =
+            std::max(at(x, y), neighbour_share * most);
+      }
+    }
+    return result;
   }
 
   std::size_t size() const { return pixels_.size(); }
@@ -248,8 +290,11 @@ class StillRender {
 
   void run() {
     start_ = Clock::now();
-    if (builder_) fill_cache();
     std::uint32_t done = 0;
+    if (builder_) {
+      run_cached();
+      done = target_;
+    }
     while (done < target_ && !stop_) {
       const std::uint32_t checkpoint = next_checkpoint(done);
       const std::uint32_t pass =
@@ -263,7 +308,7 @@ class StillRender {
     }
     const double mean_samples =
         static_cast<double>(statistics_.samples) / static_cast<double>(film_.size());
-    statistics_.error_estimate = estimate_.error_at(mean_samples);
+    statistics_.error_estimate = builder_ ? cached_error_ : estimate_.error_at(mean_samples);
     statistics_.seconds_sample = seconds_since(start_);
     statistics_.stopped_early = stopped_by_caller_;
   }
@@ -271,7 +316,30 @@ class StillRender {
   const Film& film() const { return film_; }
 
  private:
-  void fill_cache() {
+  // The cache first, then the picture: everywhere alike to begin with, and after that where it is
+  // most in error.
+  void run_cached() {
+    build_cache();
+    if (stop_ && !stopped_by_caller_) stop_ = false;  // out of time: at least one sample a pixel
+    std::uint32_t done = 0;
+    const std::uint32_t even = std::min(target_, even_samples);
+    while (done < even && !stop_) {
+      const std::uint32_t pass = std::min(std::max(done, 1u), even - done);
+      render_pass(done, pass);
+      if (!stop_ && light_tracer_.active()) render_light_pass(pass);
+      done += pass;
+    }
+    while (done < target_ && !stop_) {
+      const std::uint32_t pass = std::min({done / 2, max_pass_samples, target_ - done});
+      render_pass_where_needed(pass);
+      if (!stop_ && light_tracer_.active()) render_light_pass(pass);
+      done += pass;
+      cached_error_ = cached_error();
+      if (settings_.error > 0.0 && cached_error_ <= estimate_margin * settings_.error) break;
+    }
+  }
+
+  void build_cache() {
     std::vector<Tile> tiles;
     for (int i = 0; i < film_.tile_count(); ++i) tiles.push_back(film_.tile(i));
     const auto go_on = [this] {
@@ -279,10 +347,70 @@ class StillRender {
       note_progress(1);
       return !stop_;
     };
-    builder_->fill(tiles, go_on, statistics_) &&
-        builder_->refine(record_passes, go_on, statistics_);
+    if (builder_->fill(tiles, go_on, statistics_)) {
+      builder_->refine(record_passes, go_on, statistics_);
+    }
     cache_use_ = builder_->use();
     statistics_.seconds_cache = seconds_since(start_);
+  }
+
+  // Own estimate of the picture's √relMSE from the samples' spread.
+  double cached_error() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < film_.size(); ++i) sum += film_.relative_variance(i);
+    return std::sqrt(sum / static_cast<double>(film_.size()));
+  }
+
+  // As many samples as an even pass would take, where they reduce relMSE most: a pixel should have
+  // samples in proportion to its relative spread.
+  void render_pass_where_needed(std::uint32_t count) {
+    const std::vector<float> spread = film_.spread();
+    double sum = 0.0, taken = 0.0;
+    for (std::size_t i = 0; i < spread.size(); ++i) {
+      sum += double(spread[i]);
+      taken += film_.pixel(i).samples;
+    }
+    if (!(sum > 0.0)) return render_pass(film_.pixel(0).samples, count);
+    // The larger the level, the larger the pass: halved in until the pass has its size.
+    std::vector<std::uint32_t> extra(spread.size());
+    const double wanted = double(count) * static_cast<double>(film_.size());
+    double low = 0.0, high = 16.0 * (taken + wanted) / sum, level = high;
+    constexpr int halvings = 24;
+    for (int i = 0; i < halvings; ++i) {
+      level = 0.5 * (low + high);
+      double planned = 0.0;
+      for (std::size_t j = 0; j < spread.size(); ++j) {
+        planned += more_samples(film_.pixel(j).samples, level * double(spread[j]));
+      }
+      (planned < wanted ? low : high) = level;
+    }
+    double carry = 0.0;
+    for (std::size_t i = 0; i < spread.size(); ++i) {
+      carry += more_samples(film_.pixel(i).samples, level * double(spread[i]));
+      extra[i] = static_cast<std::uint32_t>(std::max(0.0, carry));
+      carry -= extra[i];
+    }
+    for_each_tile(
+        [&](const Tile& tile, std::vector<PixelSums>& sums, RenderStatistics& counts) {
+          std::vector<SampleRange> ranges;
+          for (int y = 0; y < tile.height; ++y) {
+            for (int x = 0; x < tile.width; ++x) {
+              const std::size_t i =
+                  std::size_t(tile.y + y) * std::size_t(settings_.width) + std::size_t(tile.x + x);
+              if (extra[i] == 0) continue;
+              ranges.push_back({static_cast<std::uint32_t>(y * tile.width + x),
+                                film_.pixel(i).samples, extra[i]});
+            }
+          }
+          if (!ranges.empty()) tracer_.render_ranges(tile, ranges, sums, counts, cache_use_);
+        },
+        false);
+  }
+
+  // A pixel's samples at most grow so many times over in a pass: its spread is an estimate.
+  static double more_samples(std::uint32_t has, double should_have) {
+    constexpr double most_growth = 4.0;
+    return std::clamp(should_have - has, 0.0, (most_growth - 1.0) * has);
   }
 
   // Powers of two, where halves can be compared.
@@ -309,6 +437,15 @@ class StillRender {
   }
 
   void render_pass(std::uint32_t first_sample, std::uint32_t count) {
+    for_each_tile(
+        [&](const Tile& tile, std::vector<PixelSums>& sums, RenderStatistics& counts) {
+          tracer_.render_tile(tile, first_sample, count, sums, counts, cache_use_);
+        },
+        first_sample == 0);
+  }
+
+  template <typename Sample>
+  void for_each_tile(const Sample& sample, bool first_pass) {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, film_.tile_count(), 1),
         [&](const tbb::blocked_range<int>& range) {
@@ -318,11 +455,11 @@ class StillRender {
             const Tile tile = film_.tile(i);
             sums.assign(std::size_t(tile.width) * std::size_t(tile.height), PixelSums());
             RenderStatistics counts;
-            tracer_.render_tile(tile, first_sample, count, sums, counts, cache_use_);
-            film_.add(tile, sums, first_sample == 0);
+            sample(tile, sums, counts);
+            film_.add(tile, sums, first_pass);
             const std::lock_guard lock(mutex_);
             add_counts(counts, statistics_);
-            note_progress(first_sample);
+            note_progress(first_pass ? 0 : 1);
           }
         },
         tbb::simple_partitioner());
@@ -391,6 +528,7 @@ class StillRender {
   const LightTracer& light_tracer_;
   CacheBuilder* const builder_;
   CacheUse cache_use_;
+  double cached_error_ = -1.0;
   const RenderSettings& settings_;
   RenderStatistics& statistics_;
   const ProgressCallback& progress_;
