@@ -1,0 +1,27 @@
+// Eight or sixteen numbers that a plain loop handles at once. Comparisons keep compilers from
+// vectorising such loops, as they might raise floating-point exceptions; signs do not.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace lumivec {
+
+// Bit i: v[i] ≥ 0. Not a number is either.
+template <std::size_t n>
+std::uint32_t not_negative(const std::array<float, n>& v) {
+  static_assert(n <= 32);
+  std::uint32_t mask = 0;
+  for (std::size_t i = 0; i < n; ++i) mask |= (~std::bit_cast<std::uint32_t>(v[i]) >> 31) << i;
+  return mask;
+}
+
+// 2 max(x, 0).
+inline float twice_positive_part(float x) {
+  return x + std::abs(x);
+}
+
+}  // namespace lumivec
