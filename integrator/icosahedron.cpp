@@ -1,0 +1,151 @@
+#include "integrator/icosahedron.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace lumivec {
+
+namespace {
+
+using Triangle = std::array<V3f, 3>;
+
+// Cosines of single-precision unit vectors are off by no more than this, plane distances too.
+constexpr float rounding = 5e-7f;
+
+V3f midpoint(const V3f& a, const V3f& b) {
+  return (a + b).normalized();
+}
+
+// The child in the middle is the triangle of the midpoints; child i otherwise keeps corner i.
+Triangle child_triangle(const Triangle& t, std::uint32_t which) {
+  const Triangle middle = {midpoint(t[1], t[2]), midpoint(t[2], t[0]), midpoint(t[0], t[1])};
+  if (which == 3) return middle;
+  Triangle child = middle;
+  child[which] = t[which];
+  // The two midpoints on the edges of this corner, in an order that keeps the orientation.
+  child[(which + 1) % 3] = middle[(which + 2) % 3];
+  child[(which + 2) % 3] = middle[(which + 1) % 3];
+  return child;
+}
+
+// The twelve corners: cyclic permutations of (0, ±1, ±golden ratio).
+std::array<V3f, 12> icosahedron_corners() {
+  const float g = std::numbers::phi_v<float>;
+  std::array<V3f, 12> corners;
+  std::size_t n = 0;
+  for (const float a : {-1.0f, 1.0f}) {
+    for (const float b : {-g, g}) {
+      corners[n++] = V3f(0.0f, a, b).normalized();
+      corners[n++] = V3f(a, b, 0.0f).normalized();
+      corners[n++] = V3f(b, 0.0f, a).normalized();
+    }
+  }
+  return corners;
+}
+
+}  // namespace
+
+Icosahedron::Icosahedron() {
+  // Faces are the triples of corners that are an edge apart; cosine of an edge: 1/√5.
+  const std::array<V3f, 12> corners = icosahedron_corners();
+  const auto adjacent = [&](std::size_t a, std::size_t b) {
+    return corners[a].dot(corners[b]) > 0.4f;
+  };
+  std::size_t count = 0;
+  for (std::size_t a = 0; a < corners.size(); ++a) {
+    for (std::size_t b = a + 1; b < corners.size(); ++b) {
+      for (std::size_t c = b + 1; c < corners.size(); ++c) {
+        if (!adjacent(a, b) || !adjacent(b, c) || !adjacent(a, c)) continue;
+        assert(count < icosahedron_faces);
+        corners_[count] = {corners[a], corners[b], corners[c]};
+        centers_[count] = (corners[a] + corners[b] + corners[c]).normalized();
+        ++count;
+      }
+    }
+  }
+  assert(count == icosahedron_faces);
+
+  // Neighbours are the three faces whose centres are nearest.
+  for (std::size_t f = 0; f < icosahedron_faces; ++f) {
+    std::array<std::uint8_t, icosahedron_faces> order;
+    for (std::size_t g = 0; g < icosahedron_faces; ++g) order[g] = static_cast<std::uint8_t>(g);
+    std::sort(order.begin(), order.end(), [&](std::uint8_t a, std::uint8_t b) {
+      return centers_[f].dot(centers_[a]) > centers_[f].dot(centers_[b]);
+    });
+    std::copy_n(order.begin() + 1, 3, neighbours_[f].begin());
+    neighbour_distance_ = (centers_[f] - centers_[order[1]]).length();
+  }
+
+  // Parents have lower numbers than children.
+  cuts_.resize(divided_faces);
+  std::vector<Triangle> triangles(divided_faces);
+  std::copy(corners_.begin(), corners_.end(), triangles.begin());
+  for (std::uint32_t face = 0; face < divided_faces; ++face) {
+    const Triangle& t = triangles[face];
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const V3f normal =
+          midpoint(t[i], t[(i + 1) % 3]).cross(midpoint(t[i], t[(i + 2) % 3])).normalized();
+      cuts_[face][i] = normal.dot(t[i]) > 0.0f ? normal : -normal;
+    }
+    for (std::uint32_t i = 0; i < 4 && child(face, i) < divided_faces; ++i)
+      triangles[child(face, i)] = child_triangle(t, i);
+  }
+}
+
+std::uint32_t Icosahedron::root_of(const V3f& direction) const {
+  // By symmetry a face is where its centre is the nearest of all.
+  std::uint32_t best = 0;
+  float cosine = centers_[0].dot(direction);
+  for (std::uint32_t f = 1; f < icosahedron_faces; ++f) {
+    const float c = centers_[f].dot(direction);
+    if (c > cosine) {
+      best = f;
+      cosine = c;
+    }
+  }
+  return best;
+}
+
+std::uint32_t Icosahedron::face_of(const V3f& direction, int level) const {
+  assert(level >= 0 && level <= deepest_face_level);
+  std::uint32_t face = root_of(direction);
+  for (int l = 0; l < level; ++l) face = child(face, child_of(face, direction));
+  return face;
+}
+
+std::array<V3f, 3> Icosahedron::triangle(std::uint32_t face) const {
+  if (face < icosahedron_faces) return corners_[face];
+  const std::uint32_t parent = (face - icosahedron_faces) / 4;
+  return child_triangle(triangle(parent), (face - icosahedron_faces) % 4);
+}
+
+DirectionCone Icosahedron::cone(const V3f& direction, float min_cosine) const {
+  DirectionCone cone;
+  cone.direction = direction;
+  cone.min_cosine = min_cosine;
+  const float cosine = min_cosine - rounding;
+  constexpr float everything = 2.0f;
+  cone.margin =
+      cosine <= 0.0f ? everything : std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) + rounding;
+  std::array<float, icosahedron_faces> cosines;
+  for (std::size_t f = 0; f < icosahedron_faces; ++f) cosines[f] = centers_[f].dot(direction);
+  // A face is on its own side of the planes half-way to its neighbours; (c_f − c_g) / |c_f − c_g|
+  // are their normals.
+  const float margin = cone.margin * neighbour_distance_ + rounding;
+  for (std::size_t f = 0; f < icosahedron_faces; ++f) {
+    float nearest = cosines[neighbours_[f][0]];
+    for (const std::uint8_t g : neighbours_[f]) nearest = std::max(nearest, cosines[g]);
+    if (cosines[f] >= nearest - margin)
+      cone.roots[cone.root_count++] = static_cast<std::uint8_t>(f);
+  }
+  return cone;
+}
+
+const Icosahedron& icosahedron() {
+  static const Icosahedron made;
+  return made;
+}
+
+}  // namespace lumivec
