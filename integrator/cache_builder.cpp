@@ -8,16 +8,25 @@
 #include <mutex>
 
 #include "integrator/denormals.h"
+#include "integrator/sampling.h"
 #include "integrator/sobol.h"
 
 namespace lumivec {
 namespace {
 
 constexpr int first_stride = 32;  // pixels
+// The area that a record's budget is stated for (irradiance_cache.h): a disc with this share of the
+// scene's radius.
+constexpr float budget_radius = 0.1f;
+// Hemispheres of a record at an error of 1%; their number grows as the inverse square of the error.
+constexpr double passes_at_one_percent = 2.0;
+constexpr std::uint32_t most_passes = 4096;
 // A place wants a record of its own unless those around it have this weight together.
 constexpr float wanted_weight = 0.4f;
 // Pixels make do with less: what lies between places that were asked for.
 constexpr float needed_weight = 0.05f;
+// Places with less than this are gaps that the bounds on neighbours' reach have opened.
+constexpr float gap_weight = 0.15f;
 // Paths that gather light are this far apart, radians: √(2π / cells).
 constexpr float gather_spread = 0.09f;
 // Below so many records paths are traced to their own ends: the cache has seen too little.
@@ -49,14 +58,17 @@ void for_each(std::size_t count, const Body& body) {
 }  // namespace
 
 CacheBuilder::CacheBuilder(const PathTracer& tracer, const TracedScene& scene,
-                           const RenderSettings& settings, IrradianceCache& cache, float budget)
+                           const RenderSettings& settings, IrradianceCache& cache)
     : tracer_(tracer), settings_(settings), cache_(cache), scene_(scene) {
-  set_budget(budget);
+  set_error(settings.cache_error);
 }
 
-void CacheBuilder::set_budget(float budget) {
-  budget_ = budget;
-  gather_.emplace(tracer_, scene_, settings_.validity_parts, budget);
+void CacheBuilder::set_error(double error) {
+  const float radius = budget_radius * scene_.radius();
+  budget_ = static_cast<float>(error) * pi * radius * radius;
+  const double passes = std::ceil(passes_at_one_percent * (0.01 / error) * (0.01 / error));
+  passes_ = static_cast<std::uint32_t>(std::clamp(passes, 1.0, double(most_passes)));
+  gather_.emplace(tracer_, scene_, settings_.validity_parts, budget_);
 }
 
 CacheUse CacheBuilder::path_ends() const {
@@ -75,12 +87,12 @@ CacheUse CacheBuilder::use() const {
 }
 
 std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles, int stride,
-                                                 RenderStatistics& statistics) const {
+                                                 float weight, RenderStatistics& statistics) const {
   std::vector<std::vector<RecordRequest>> found(tiles.size());
   std::mutex mutex;
   for_each(tiles.size(), [&](std::size_t i) {
     CacheUse asking = use();
-    asking.needed_weight = wanted_weight;
+    asking.needed_weight = weight;
     asking.requests = &found[i];
     const Tile& tile = tiles[i];
     std::vector<SampleRange> pixels;
@@ -114,7 +126,7 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
   return shuffled;
 }
 
-bool CacheBuilder::make_records(std::vector<RecordRequest>& requests,
+bool CacheBuilder::make_records(std::vector<RecordRequest>& requests, float weight,
                                 const std::function<bool()>& go_on, RenderStatistics& statistics) {
   const auto seed_low = static_cast<std::uint32_t>(settings_.seed);
   const auto seed_high = static_cast<std::uint32_t>(settings_.seed >> 32);
@@ -132,8 +144,8 @@ bool CacheBuilder::make_records(std::vector<RecordRequest>& requests,
       for_each(group, [&](std::size_t i) {
         CachedLight light;
         std::uint64_t visibility_rays = 0;
-        wanted[i] = !cache_.look_up(requests[next + i].point, budget_, wanted_weight, light,
-                                    visibility_rays);
+        wanted[i] =
+            !cache_.look_up(requests[next + i].point, budget_, weight, light, visibility_rays);
       });
       std::size_t used = 0;
       for (; used < group && batch.size() < batch_size; ++used) {
@@ -160,25 +172,30 @@ bool CacheBuilder::make_records(std::vector<RecordRequest>& requests,
   return true;
 }
 
-bool CacheBuilder::fill(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
-                        RenderStatistics& statistics) {
-  for (int stride = first_stride; stride >= 1; stride /= 2) {
+bool CacheBuilder::fill(const std::vector<Tile>& tiles, int stride, float weight,
+                        const std::function<bool()>& go_on, RenderStatistics& statistics) {
+  for (; stride >= 1; stride /= 2) {
     cache_.commit(budget_);
-    std::vector<RecordRequest> requests = collect(tiles, stride, statistics);
-    if (!make_records(requests, go_on, statistics)) return false;
+    std::vector<RecordRequest> requests = collect(tiles, stride, weight, statistics);
+    if (!make_records(requests, weight, go_on, statistics)) return false;
   }
   return true;
 }
 
-bool CacheBuilder::refine(std::uint32_t passes, const std::function<bool()>& go_on,
-                          RenderStatistics& statistics) {
+bool CacheBuilder::build(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
+                         RenderStatistics& statistics) {
+  return fill(tiles, first_stride, wanted_weight, go_on, statistics) && refine(go_on, statistics) &&
+         fill(tiles, 1, gap_weight, go_on, statistics) && refine(go_on, statistics);
+}
+
+bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& statistics) {
   constexpr std::size_t group = 64;
   std::vector<IrradianceRecord> refined;
   std::mutex mutex;
   while (true) {
     std::vector<std::uint32_t> wanting;
     for (std::uint32_t i = 0; i < places_.size(); ++i) {
-      if (!settled_ || cache_.record(i).passes < passes) wanting.push_back(i);
+      if (!settled_ || cache_.record(i).passes < passes_) wanting.push_back(i);
     }
     if (wanting.empty()) break;
     // Paths end in the records of the round before, which are replaced when all are done: what a
@@ -206,14 +223,8 @@ bool CacheBuilder::refine(std::uint32_t passes, const std::function<bool()>& go_
     for (std::size_t i = 0; i < wanting.size(); ++i) cache_.edit(wanting[i]) = refined[i];
     settled_ = true;
   }
-  cache_.commit(budget_);
+  cache_.rebuild();
   return true;
-}
-
-double CacheBuilder::noise() const {
-  double sum = 0.0;
-  for (std::uint32_t i = 0; i < cache_.size(); ++i) sum += double(cache_.record(i).variance);
-  return cache_.size() > 0 ? std::sqrt(sum / cache_.size()) : 0.0;
 }
 
 }  // namespace lumivec

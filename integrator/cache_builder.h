@@ -16,42 +16,41 @@ namespace lumivec {
 
 class CacheBuilder {
  public:
-  // budget: scene units², see IrradianceCache. All must outlive this.
+  // All must outlive this.
   CacheBuilder(const PathTracer& tracer, const TracedScene& scene, const RenderSettings& settings,
-               IrradianceCache& cache, float budget);
+               IrradianceCache& cache);
 
-  // Another budget for what is made and looked up from now on.
-  void set_budget(float budget);
-  float budget() const { return budget_; }
+  // The relative error that records made from now on are for, > 0: their reach and their number of
+  // hemispheres follow from it.
+  void set_error(double error);
 
-  // Makes what the tiles lack. go_on is asked between batches; false ends it early. False: ended.
-  bool fill(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
-            RenderStatistics& statistics);
-
-  // Averages so many more hemispheres into all records, whose paths end in the cache. The first
-  // such replaces what whole paths brought.
-  bool refine(std::uint32_t passes, const std::function<bool()>& go_on,
-              RenderStatistics& statistics);
+  // Makes the records that the tiles lack, and makes all as good as the error asks. go_on is asked
+  // between batches; false ends it early. False: ended.
+  bool build(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
+             RenderStatistics& statistics);
 
   // How pixels use the cache.
   CacheUse use() const;
 
-  // Relative error of the records' irradiance that is left by their noise, √mean square.
-  double noise() const;
-
  private:
+  bool fill(const std::vector<Tile>& tiles, int first_stride, float wanted_weight,
+            const std::function<bool()>& go_on, RenderStatistics& statistics);
+  // Averages hemispheres, whose paths end in the cache, into records until each has enough. The
+  // first replaces what whole paths brought.
+  bool refine(const std::function<bool()>& go_on, RenderStatistics& statistics);
   // Where paths that gather light may end.
   CacheUse path_ends() const;
   std::vector<RecordRequest> collect(const std::vector<Tile>& tiles, int stride,
-                                     RenderStatistics& statistics) const;
-  bool make_records(std::vector<RecordRequest>& requests, const std::function<bool()>& go_on,
-                    RenderStatistics& statistics);
+                                     float wanted_weight, RenderStatistics& statistics) const;
+  bool make_records(std::vector<RecordRequest>& requests, float wanted_weight,
+                    const std::function<bool()>& go_on, RenderStatistics& statistics);
 
   const PathTracer& tracer_;
   const RenderSettings& settings_;
   IrradianceCache& cache_;
   const TracedScene& scene_;
-  float budget_ = 0.0f;
+  float budget_ = 0.0f;       // scene units², see IrradianceCache
+  std::uint32_t passes_ = 1;  // hemispheres of a record
   std::optional<HemisphereGather> gather_;
   bool settled_ = false;               // all records have been made by paths that end in the cache
   std::vector<RecordRequest> places_;  // of the records, to refine them

@@ -133,6 +133,10 @@ bool IrradianceCache::look_up(const CachePoint& point, float budget, float neede
   return true;
 }
 
+void IrradianceCache::rebuild() {
+  tree_.rebuild([&](std::uint32_t i) { return reach(records_[i]); });
+}
+
 void IrradianceCache::commit(float budget) {
   const std::uint32_t n = size();
   std::vector<float> clamped(n);

@@ -62,6 +62,8 @@ class IrradianceCache {
   // radii by those of neighbours, and makes look-ups fast.
   IrradianceRecord& edit(std::uint32_t i) { return records_[i]; }
   void commit(float budget);
+  // Likewise without the bounds.
+  void rebuild();
 
  private:
   float weight(const IrradianceRecord& record, const CachePoint& point, float scale,

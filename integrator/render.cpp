@@ -39,11 +39,12 @@ constexpr std::uint32_t light_batch = 4096;
 constexpr std::uint32_t batches_at_once = 64;
 // With cached light, pixels all have so many samples before any has more.
 constexpr std::uint32_t even_samples = 4;
-// Hemispheres of a record.
-const std::uint32_t record_passes = getenv("PASSES") ? atoi(getenv("PASSES")) : 1;
-// The area that a record's budget is stated for (irradiance_cache.h): a disc with this share of the
-// scene's radius.
-constexpr float budget_radius = 0.1f;
+// The share of the whole error that is left to the cache.
+constexpr double cache_share = 0.5;
+// Limited by time, the cache starts with this error, and gets better by this factor again and
+// again.
+constexpr double first_timed_error = 0.02;
+constexpr double timed_error_step = 0.7;
 constexpr double progress_interval = 0.1;  // seconds
 
 using Clock = std::chrono::steady_clock;
@@ -144,6 +145,13 @@ class Film {
     const double mean = sum / n;
     const double variance = std::max(0.0, double(p.squares) / n - mean * mean) / (n - 1.0);
     return variance / (mean * mean + 0.01);
+  }
+
+  // Estimated √relMSE.
+  double relative_error() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) sum += relative_variance(i);
+    return std::sqrt(sum / static_cast<double>(pixels_.size()));
   }
 
   // Of one sample, √: what a pixel's number of samples should be in proportion to. Taken from the
@@ -308,7 +316,7 @@ class StillRender {
     }
     const double mean_samples =
         static_cast<double>(statistics_.samples) / static_cast<double>(film_.size());
-    statistics_.error_estimate = builder_ ? cached_error_ : estimate_.error_at(mean_samples);
+    statistics_.error_estimate = builder_ ? picture_error_ : estimate_.error_at(mean_samples);
     statistics_.seconds_sample = seconds_since(start_);
     statistics_.stopped_early = stopped_by_caller_;
   }
@@ -317,29 +325,47 @@ class StillRender {
 
  private:
   // The cache first, then the picture: everywhere alike to begin with, and after that where it is
-  // most in error.
+  // most in error. Limited by time, the cache is made better as long as it has had less of it than
+  // the picture.
   void run_cached() {
-    build_cache();
-    if (stop_ && !stopped_by_caller_) stop_ = false;  // out of time: at least one sample a pixel
+    const bool by_time = settings_.seconds > 0.0;
+    double cache_error =
+        settings_.error > 0.0 ? cache_share * settings_.error : settings_.cache_error;
+    if (by_time) cache_error = std::max(cache_error, first_timed_error);
+    build_cache(cache_error);
+    if (stop_ && !stopped_by_caller_)
+      stop_ = false;  // out of time: one sample a pixel all the same
     std::uint32_t done = 0;
     const std::uint32_t even = std::min(target_, even_samples);
-    while (done < even && !stop_) {
-      const std::uint32_t pass = std::min(std::max(done, 1u), even - done);
-      render_pass(done, pass);
-      if (!stop_ && light_tracer_.active()) render_light_pass(pass);
-      done += pass;
-    }
     while (done < target_ && !stop_) {
-      const std::uint32_t pass = std::min({done / 2, max_pass_samples, target_ - done});
-      render_pass_where_needed(pass);
+      if (by_time && done >= even && statistics_.seconds_cache < 0.5 * seconds_since(start_)) {
+        cache_error *= timed_error_step;
+        build_cache(cache_error);
+        if (stop_) break;
+      }
+      const std::uint32_t left = done < even ? even - done : target_ - done;
+      const std::uint32_t pass =
+          std::min({std::max(done < even ? done : done / 2, 1u), max_pass_samples, left});
+      if (done < even) {
+        render_pass(done, pass);
+      } else {
+        render_pass_where_needed(pass);
+      }
       if (!stop_ && light_tracer_.active()) render_light_pass(pass);
       done += pass;
-      cached_error_ = cached_error();
-      if (settings_.error > 0.0 && cached_error_ <= estimate_margin * settings_.error) break;
+      if (done <= 1) continue;
+      picture_error_ = film_.relative_error();
+      if (settings_.error > 0.0 && done >= even &&
+          picture_error_ <= estimate_margin * settings_.error) {
+        break;
+      }
     }
   }
 
-  void build_cache() {
+  // Records for that relative error: their reach follows from it, and how many hemispheres each is
+  // the mean of.
+  void build_cache(double error) {
+    const Clock::time_point begin = Clock::now();
     std::vector<Tile> tiles;
     for (int i = 0; i < film_.tile_count(); ++i) tiles.push_back(film_.tile(i));
     const auto go_on = [this] {
@@ -347,18 +373,10 @@ class StillRender {
       note_progress(1);
       return !stop_;
     };
-    if (builder_->fill(tiles, go_on, statistics_)) {
-      builder_->refine(record_passes, go_on, statistics_);
-    }
+    builder_->set_error(error);
+    builder_->build(tiles, go_on, statistics_);
     cache_use_ = builder_->use();
-    statistics_.seconds_cache = seconds_since(start_);
-  }
-
-  // Own estimate of the picture's √relMSE from the samples' spread.
-  double cached_error() const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < film_.size(); ++i) sum += film_.relative_variance(i);
-    return std::sqrt(sum / static_cast<double>(film_.size()));
+    statistics_.seconds_cache += seconds_since(begin);
   }
 
   // As many samples as an even pass would take, where they reduce relMSE most: a pixel should have
@@ -528,7 +546,7 @@ class StillRender {
   const LightTracer& light_tracer_;
   CacheBuilder* const builder_;
   CacheUse cache_use_;
-  double cached_error_ = -1.0;
+  double picture_error_ = -1.0;
   const RenderSettings& settings_;
   RenderStatistics& statistics_;
   const ProgressCallback& progress_;
@@ -566,9 +584,7 @@ Framebuffer render(const Scene& scene, const Camera& camera, const RenderSetting
     IrradianceCache cache(traced, settings.validity_parts, settings.cache_bytes);
     std::optional<CacheBuilder> builder;
     if (settings.integrator == Integrator::light_vectors) {
-      const float radius = budget_radius * traced.radius();
-      builder.emplace(tracer, traced, settings, cache,
-                      static_cast<float>(settings.cache_error) * pi * radius * radius);
+      builder.emplace(tracer, traced, settings, cache);
     }
     StillRender still(tracer, light_tracer, builder ? &*builder : nullptr, settings, statistics,
                       progress);
