@@ -18,15 +18,9 @@ void IcosphereStore::insert(Icosphere& sphere, const V3f& unpacked, std::uint32_
   Place place = {whole_sphere, 0};
   while (true) {
     std::uint32_t link = slot->load(std::memory_order_relaxed);
-    if (link == empty) {
-      link = lists_.grow();
-      append(lists_[link], entry);
-      slot->store(link, std::memory_order_release);
-      return;
-    }
     if (!divided(link)) {
-      if (append(lists_[link], entry)) return;
-      link = divide(lists_[link], place) | divided_bit;
+      if (append(*slot, entry)) return;
+      link = divide(lists_[link & ~longer_bit], place) | divided_bit;
       slot->store(link, std::memory_order_release);
     }
     const std::uint32_t which = part_of(place, direction, record);
@@ -48,11 +42,16 @@ std::uint32_t IcosphereStore::part_of(const Place& place, const V3f& direction,
   return (record >> place.bits) & 3;
 }
 
-// False: the list is full.
-bool IcosphereStore::append(List& list, std::uint64_t entry) {
-  for (auto& place : list.entries) {
-    if (place.load(std::memory_order_relaxed) != no_entry) continue;
-    place.store(entry, std::memory_order_release);
+// To the list of a link, a new one if there is none. False: it is full.
+bool IcosphereStore::append(std::atomic<std::uint32_t>& link, std::uint64_t entry) {
+  const std::uint32_t old = link.load(std::memory_order_relaxed);
+  const std::uint32_t index = old == empty ? lists_.grow() : old & ~longer_bit;
+  List& list = lists_[index];
+  for (std::uint32_t i = 0; i < face_capacity; ++i) {
+    if (list.entries[i].load(std::memory_order_relaxed) != no_entry) continue;
+    list.entries[i].store(entry, std::memory_order_release);
+    const std::uint32_t now = i < line_capacity ? index : index | longer_bit;
+    if (now != old) link.store(now, std::memory_order_release);
     return true;
   }
   return false;
@@ -65,10 +64,7 @@ std::uint32_t IcosphereStore::divide(const List& list, const Place& place) {
     const std::uint64_t entry = stored.load(std::memory_order_relaxed);
     const V3f direction = unpack_direction(static_cast<std::uint32_t>(entry >> 32));
     const auto record = static_cast<std::uint32_t>(entry);
-    std::atomic<std::uint32_t>& link = faces_[first + part_of(place, direction, record)].link;
-    if (link.load(std::memory_order_relaxed) == empty)
-      link.store(lists_.grow(), std::memory_order_relaxed);
-    append(lists_[link.load(std::memory_order_relaxed)], entry);
+    append(faces_[first + part_of(place, direction, record)].link, entry);
   }
   return first;
 }

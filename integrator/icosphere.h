@@ -76,10 +76,12 @@ class IcosphereStore {
   void clear();
 
  private:
-  // A link is what a sphere or a face holds: nothing, the index of a list, or with this bit the
-  // index of the first of its faces, 20 of a sphere and 4 of a face.
+  // A link is what a sphere or a face holds: nothing, the index of a list and whether it fills more
+  // than one cache line, or the index of the first of its faces, 20 of a sphere and 4 of a face.
   static constexpr std::uint32_t empty = Icosphere::empty;
   static constexpr std::uint32_t divided_bit = 1u << 31;
+  static constexpr std::uint32_t longer_bit = 1u << 30;
+  static constexpr std::uint32_t line_capacity = face_capacity / 2;
   static bool divided(std::uint32_t link) { return link != empty && (link & divided_bit) != 0; }
 
   struct Face {
@@ -123,7 +125,7 @@ class IcosphereStore {
   void scan(std::uint32_t list, const DirectionCone& cone, const Visit& visit) const {
     const List& l = lists_[list];
     // Eight at a time, whether all are there or not: faster than to know where the list ends.
-    constexpr std::uint32_t width = 8;
+    constexpr std::uint32_t width = line_capacity;
     const float signed_square = cone.min_cosine * std::abs(cone.min_cosine) - rounding;
     for (std::uint32_t first = 0; first < face_capacity; first += width) {
       std::array<std::uint64_t, width> entries;
@@ -197,11 +199,11 @@ class IcosphereStore {
       __builtin_prefetch(&link);
       faces_[face_count_++ % capacity] = {face, place, tag};
     }
-    void add_list(std::uint32_t list, const Tag& tag) {
-      const List& l = store_.lists_[list];
+    void add_list(std::uint32_t link, const Tag& tag) {
+      const List& l = store_.lists_[link & ~longer_bit];
       __builtin_prefetch(&l.entries[0]);
-      __builtin_prefetch(&l.entries[face_capacity / 2]);
-      lists_[list_count_++] = {list, tag};
+      if ((link & longer_bit) != 0) __builtin_prefetch(&l.entries[line_capacity]);
+      lists_[list_count_++] = {link & ~longer_bit, tag};
       if (list_count_ == capacity) scan_lists();
     }
     void scan_lists() {
@@ -221,7 +223,7 @@ class IcosphereStore {
     WaitingList lists_[capacity];
   };
 
-  static bool append(List& list, std::uint64_t entry);
+  bool append(std::atomic<std::uint32_t>& link, std::uint64_t entry);
   std::uint32_t divide(const List& list, const Place& place);
 
   const Icosahedron& geometry_ = icosahedron();
