@@ -2,9 +2,10 @@
 // k-d tree, and at each position by view direction, in a recursive icosahedron. Records are
 // inserted while others look, and look-ups never block.
 //
-// With 100,000 positions of 100 directions a look-up that meets seven positions takes about a
-// microsecond, an insertion about the same. A position costs 36 bytes, a record its own size and
-// about 32 bytes.
+// A look-up that meets seven positions takes 0.8 µs where all is in the processor's cache, and
+// three with 100,000 positions of 100 directions, measured beside other work: it waits for memory.
+// An insertion takes 0.3 to 1.1 µs. A record takes its own size and 25 to 30 bytes where there are
+// many a position, a lone one about 250.
 #pragma once
 
 #include <algorithm>
@@ -86,8 +87,9 @@ class LightVectorCache {
     visit_records();
   }
 
-  // Balances the tree of positions: look-ups are then up to twice as fast as after insertions in
-  // random order, and far faster than after sorted ones. Not while others use the cache.
+  // Packs the tree of positions: its part of a look-up is then eight times as fast as after
+  // insertions in random order, and far faster than after sorted ones. Not while others use the
+  // cache.
   void balance() {
     tree_.rebuild([this](std::uint32_t i) { return tree_.reach(i); });
   }
