@@ -27,8 +27,9 @@ constexpr float wanted_weight = 0.4f;
 constexpr float needed_weight = 0.05f;
 // Places with less than this are gaps that the bounds on neighbours' reach have opened.
 constexpr float gap_weight = 0.15f;
-// Paths that gather light are this far apart, radians: √(2π / cells).
-constexpr float gather_spread = 0.09f;
+// What gathering paths see of a record may be blurred over this angle, radians: an eighth of that
+// between neighbouring paths, √(2π / cells).
+constexpr float gather_spread = 0.0125f;
 // Below so many records paths are traced to their own ends: the cache has seen too little.
 constexpr std::uint32_t fewest_to_end_in = 512;
 // Records that are made at a time, without knowing of each other.
