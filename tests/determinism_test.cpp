@@ -41,6 +41,20 @@ TEST(determinism, any_number_of_threads) {
   }
 }
 
+TEST(determinism, cached_light_with_any_number_of_threads) {
+  const Scene scene = everything();
+  const Camera camera = cornell_camera();
+  RenderSettings settings = square(40, 6);
+  settings.integrator = Integrator::light_vectors;
+  settings.cache_error = 0.05;
+  settings.threads = 1;
+  const Framebuffer one = render_clean(scene, camera, settings);
+  for (const int threads : {2, 4}) {
+    settings.threads = threads;
+    EXPECT_TRUE(same(one, render_clean(scene, camera, settings))) << threads << " threads";
+  }
+}
+
 TEST(determinism, seed) {
   const Scene scene = everything();
   const Camera camera = cornell_camera();
