@@ -310,15 +310,18 @@ void Bsdf::set_lobes(const SurfaceParameters& surface, float specular_roughness,
                : weights[reflect];
   const float total = others + facets;
   const float scale = total > 0.0f ? 1.0f / total : 0.0f;
-  const auto kind = [=](float roughness) {
+  const bool returns_much =
+      reflects &&
+      mean(at_least_0(reflectance_.at(fresnel_shape(1.0f, eta_)))) >= glossy_reflectance;
+  const auto kind = [=](float roughness, bool strong) {
     const bool specular = roughness < std::max(specular_roughness, delta_roughness);
     if (specular) return LobeKind::specular;
-    return roughness < glossy_roughness ? LobeKind::glossy : LobeKind::broad;
+    return roughness < glossy_roughness && strong ? LobeKind::glossy : LobeKind::broad;
   };
-  const LobeKind base = kind(surface.roughness);
+  const LobeKind base = kind(surface.roughness, returns_much || facets_transmit_);
   const LobeKind base_spread = base == LobeKind::specular ? base : LobeKind::broad;
   const bool smooth_coat = surface.clearcoat_roughness < delta_roughness;
-  lobes_[coat] = {weights[coat] * scale, kind(surface.clearcoat_roughness), smooth_coat};
+  lobes_[coat] = {weights[coat] * scale, kind(surface.clearcoat_roughness, false), smooth_coat};
   lobes_[reflect] = {facets * scale, base, !rough_};
   lobes_[transmit] = {weights[transmit] * scale, LobeKind::specular, true};
   lobes_[spread] = {weights[spread] * scale, base_spread, false};

@@ -31,8 +31,10 @@ constexpr std::size_t lobe_kind_count = 4;
 constexpr bool is_broad(LobeKind kind) {
   return kind == LobeKind::diffuse || kind == LobeKind::broad;
 }
-// Lobes that are not specular are glossy below this perceptual roughness.
+// Reflections that are not specular are glossy below this perceptual roughness, if they return at
+// least this share of the light at normal incidence: weaker ones throw patches that nobody sees.
 constexpr float glossy_roughness = 0.35f;
+constexpr float glossy_reflectance = 0.1f;
 
 // Radiance is scaled by the squared ratio of indices where it crosses a boundary, importance (light
 // paths) is not.

@@ -21,6 +21,9 @@ constexpr float budget_radius = 0.1f;
 // Hemispheres of a record at an error of 1%; their number grows as the inverse square of the error.
 constexpr double passes_at_one_percent = 2.0;
 constexpr std::uint32_t most_passes = 4096;
+// Records whose own noise is still above so many times the error take up to so many times more.
+constexpr double most_noise = 4.0;
+constexpr std::uint32_t noisy_growth = 16;
 // A place wants a record of its own unless those around it have this weight together.
 constexpr float wanted_weight = 0.4f;
 // Pixels make do with less: what lies between places that were asked for.
@@ -69,6 +72,7 @@ void CacheBuilder::set_error(double error) {
   budget_ = static_cast<float>(error) * pi * radius * radius;
   const double passes = std::ceil(passes_at_one_percent * (0.01 / error) * (0.01 / error));
   passes_ = static_cast<std::uint32_t>(std::clamp(passes, 1.0, double(most_passes)));
+  most_variance_ = static_cast<float>(most_noise * most_noise * error * error);
   gather_.emplace(tracer_, scene_, settings_.validity_parts, budget_);
 }
 
@@ -196,7 +200,9 @@ bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& 
   while (true) {
     std::vector<std::uint32_t> wanting;
     for (std::uint32_t i = 0; i < places_.size(); ++i) {
-      if (!settled_ || cache_.record(i).passes < passes_) wanting.push_back(i);
+      const IrradianceRecord& r = cache_.record(i);
+      const bool noisy = r.variance > most_variance_ && r.passes < noisy_growth * passes_;
+      if (!settled_ || r.passes < passes_ || noisy) wanting.push_back(i);
     }
     if (wanting.empty()) break;
     // Paths end in the records of the round before, which are replaced when all are done: what a

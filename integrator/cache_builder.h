@@ -49,8 +49,9 @@ class CacheBuilder {
   const RenderSettings& settings_;
   IrradianceCache& cache_;
   const TracedScene& scene_;
-  float budget_ = 0.0f;       // scene units², see IrradianceCache
-  std::uint32_t passes_ = 1;  // hemispheres of a record
+  float budget_ = 0.0f;         // scene units², see IrradianceCache
+  float most_variance_ = 0.0f;  // of a record's irradiance, relative
+  std::uint32_t passes_ = 1;    // hemispheres of a record
   std::optional<HemisphereGather> gather_;
   bool settled_ = false;               // all records have been made by paths that end in the cache
   std::vector<RecordRequest> places_;  // of the records, to refine them

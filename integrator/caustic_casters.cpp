@@ -26,8 +26,16 @@ float least_roughness(const Scene& scene, float factor, const TextureMap& map) {
   return factor * static_cast<float>(least) / 255.0f;
 }
 
+// Whether the base may have glossy lobes, if it is not too rough or too smooth for them.
+bool may_be_glossy(const Material& m) {
+  if (m.metallic > 0.0f || m.transmission > 0.0f || m.ior <= 0.0f) return true;
+  const Color& tint = m.specular_color;
+  return normal_reflectance(m.ior) * m.specular * std::max({tint.x, tint.y, tint.z}) >=
+         glossy_reflectance;
+}
+
 // The least roughness of the lobes that can throw caustics; 1 where there are none.
-float sharpest_lobe(const Scene& scene, const Material& m) {
+float sharpest_lobe(const Scene& scene, const Material& m, float specular_roughness) {
   if (m.unlit) return 1.0f;
   float sharpest = 1.0f;
   if (m.specular > 0.0f || m.metallic > 0.0f || m.transmission > 0.0f)
@@ -109,9 +117,10 @@ void group(BoundingSphere* begin, BoundingSphere* end, std::size_t parts,
 }  // namespace
 
 std::vector<BoundingSphere> caustic_casters(const TracedScene& scene, float specular_roughness) {
+  const float specular = std::max(specular_roughness, delta_roughness);
   std::vector<float> sharpest;
   for (const Material& m : scene.scene().materials) {
-    sharpest.push_back(sharpest_lobe(scene.scene(), m));
+    sharpest.push_back(sharpest_lobe(scene.scene(), m, specular));
   }
   std::vector<BoundingSphere> casters;
   const auto add = [&](float roughest, float least, float worth) {
@@ -131,7 +140,6 @@ std::vector<BoundingSphere> caustic_casters(const TracedScene& scene, float spec
     }
     for (std::size_t i = first; i < casters.size(); ++i) casters[i].worth = worth;
   };
-  const float specular = std::max(specular_roughness, delta_roughness);
   add(specular, 0.0f, 1.0f);
   add(glossy_roughness, specular, glossy_worth);
   return casters;

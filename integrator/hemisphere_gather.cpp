@@ -19,6 +19,7 @@ constexpr float far_away = 50.0f;
 // what the point sees: derivatives know nothing of what is further off.
 constexpr float most_elongated = 3.0f;
 constexpr float longest_share = 1.0f;
+constexpr float dark_share = 0.1f;
 // Where the light changes by this share of itself, linear extrapolation ends.
 constexpr float most_change = 1.0f;
 // Cells below this sine of elevation (the lowest rings) say what stands close by.
@@ -134,7 +135,7 @@ void HemisphereGather::Hemisphere::sum(const Frame& frame) {
     total += ring_sum[j];
     squares += ring_squares[j];
   }
-  variance = total > 0.0 ? static_cast<float>(squares / (total * total)) : 0.0f;
+  variance = total > 0.0 ? static_cast<float>(squares / (total * total)) : 1.0f;
   for (std::size_t s = 0; s < clearance.size(); ++s) {
     clearance[s] = far_away * mean_distance;
     constexpr int width = sectors / static_cast<int>(IrradianceRecord::sector_count);
@@ -249,6 +250,8 @@ void HemisphereGather::set_radii(IrradianceRecord& r) const {
     const float length = slope.length();
     if (length * longest > most_change * brightness) longest = most_change * brightness / length;
   }
+  // A hemisphere that met no light says nothing of the light's changes.
+  if (brightness <= 0.0f) longest *= dark_share;
   longest /= scale_;
   const auto radius = [&](double curvature) {
     const double r4 = 4.0 * brightness / (double(pi) * curvature);

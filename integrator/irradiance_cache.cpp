@@ -13,6 +13,8 @@ namespace {
 // Records hold for normals within about 37° of their own; between that and parallel their weight
 // falls off.
 constexpr float least_normal_cosine = 0.8f;
+// Normals closer than this are the same.
+constexpr float parallel_cosine = 1.0f - 1e-5f;
 // Off the tangent plane a record reaches this share of its shorter half axis: surfaces that curve
 // away are still served, steps are not.
 constexpr float off_plane_reach = 0.25f;
@@ -112,13 +114,22 @@ bool IrradianceCache::look_up(const CachePoint& point, float budget, float neede
       ++visibility_rays;
       if (scene_.intersect(from, to - from, 0.0f, 1.0f, 0u).valid()) return;
     }
+    // On a curved surface the sky turns with the normal, a source does not.
+    std::array<V3f, 3> vector = r.light.vector;
+    if (point.normal.dot(r.normal) < parallel_cosine) {
+      const SkyAndSource split = split_light(r.light, r.normal);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int channel = static_cast<int>(c);
+        vector[c] = split.sky[channel] * point.normal + split.source[channel] * split.direction[c];
+      }
+    }
     for (std::size_t c = 0; c < 3; ++c) {
       float gain = 1.0f;
       const float here = r.light.vector[c].dot(r.normal);
       if (parts_.gradient && here > 0.0f) {
         gain = std::clamp(1.0f + r.gradient[c].dot(offset) / here, least_gain, most_gain);
       }
-      sum.vector[c] += (w * gain) * r.light.vector[c];
+      sum.vector[c] += (w * gain) * vector[c];
       sum.flux[int(c)] += w * gain * r.light.flux[int(c)];
     }
     total += w;

@@ -19,8 +19,7 @@ struct LightSum {
   Color flux{0.0f};                                               // ∫ L dω, cd·m⁻²·sr
 
   void add(const Color& light, const V3f& direction) {
-    for (std::size_t c = 0; c < 3; ++c)
-      vector[c] += light[static_cast<int>(c)] * direction;
+    for (std::size_t c = 0; c < 3; ++c) vector[c] += light[static_cast<int>(c)] * direction;
     flux += light;
   }
   void add(const LightSum& other, float weight) {
@@ -39,8 +38,9 @@ struct LightSum {
 struct SkyAndSource {
   Color sky{0.0f};     // irradiance of the sky on the surface itself, lx
   Color source{0.0f};  // of the source on a facing surface, lx
-  std::array<V3f, 3> direction = {V3f(0.0f), V3f(0.0f), V3f(0.0f)};  // unit, of each channel's source
-  V3f mean_direction{0.0f, 0.0f, 1.0f};                             // unit
+  std::array<V3f, 3> direction = {V3f(0.0f), V3f(0.0f),
+                                  V3f(0.0f)};  // unit, of each channel's source
+  V3f mean_direction{0.0f, 0.0f, 1.0f};        // unit
 
   // Irradiance on a surface whose normal is bent from the one that the sky stands over. Exact, as
   // is its first derivative, where the normal is not bent; lx.
@@ -73,10 +73,10 @@ struct IrradianceRecord {
   // Distance to the nearest thing low above the surface, by sectors of azimuth in the same axes.
   static constexpr std::size_t sector_count = 8;
   std::array<float, sector_count> clearance{};
-  float least_reach = 0.0f;  // how far it is looked for at least, at a budget of 1, scene units
+  float least_reach = 0.0f;    // how far it is looked for at least, at a budget of 1, scene units
   float mean_distance = 0.0f;  // harmonic mean distance to what was seen, scene units
-  float variance = 0.0f;      // of the mean irradiance, relative to its square
-  std::uint32_t passes = 0;   // hemispheres that have been averaged
+  float variance = 0.0f;       // of the mean irradiance, relative to its square
+  std::uint32_t passes = 0;    // hemispheres that have been averaged
 };
 static_assert(sizeof(IrradianceRecord) <= 200, "view-independent records stay small");
 

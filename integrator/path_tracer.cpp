@@ -119,6 +119,8 @@ struct Lane {
   std::uint32_t seed = 0;          // of the pixel
   std::uint32_t continuation = 0;  // of the splits that leave the first vertex
   std::uint32_t splits = usual_splits;
+  bool probe_bent =
+      false;            // … and has since had an S event other than straight through a thin wall
   bool probe = false;   // left a diffuse lobe whose other light is cached: brings caustics alone
   float length = 0.0f;  // of the path from the eye, scene units
   std::optional<Fork> fork;
@@ -504,7 +506,9 @@ class PathStream {
   void shade_beside_cache(Lane& lane, const SurfacePoint& point,
                           const SurfaceParameters& parameters, const Bsdf& bsdf,
                           const V3f& receiver, bool may_sample_lights) {
-    const bool probes = t_.eye_paths_find_caustics_ && !cache_.requests;
+    // Light paths do not connect to what the eye sees in mirrors.
+    const bool found_by_eye = t_.eye_paths_find_caustics_ || lane.term == Term::specular;
+    const bool probes = t_.lights_.leaves_caustics() && found_by_eye && !cache_.requests;
     if (probes) {
       if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, true);
       scatter(lane, point, parameters, bsdf, receiver, may_sample_lights, true);
@@ -534,7 +538,7 @@ class PathStream {
 
   void add_environment(Lane& lane) {
     const EnvironmentLight& environment = t_.lights_.environment();
-    if (environment.black() || (lane.probe && !lane.caustic.bent)) return;
+    if (environment.black() || (lane.probe && !lane.probe_bent)) return;
     float weight = 1.0f;
     if (lane.light_sampled) {
       weight = power_heuristic(
@@ -545,7 +549,7 @@ class PathStream {
   }
 
   void add_emission(Lane& lane, const SurfacePoint& point, const Color& emission) {
-    if (lane.probe && !lane.caustic.bent) return;
+    if (lane.probe && !lane.probe_bent) return;
     if (lane.caustic.left_to_light_paths() && t_.lights_.light_traced(point)) return;
     float weight = 1.0f;
     if (lane.light_sampled) {
@@ -621,11 +625,16 @@ class PathStream {
     if (!bsdf.sample(u[0], V2f(u[1], u[2]), s)) return;
     lane.throughput *= s.weight;
     if (is_black(lane.throughput)) return;
-    lane.probe = lane.probe || (diffuse_is_cached && s.kind == LobeKind::diffuse);
     const bool straight_through = s.delta && s.transmitted && parameters.thin_walled;
     const Term next = after_event(lane.term, s.kind);
     if ((reachable_terms(next) & terms_) == 0) return;
     lane.term = next;
+    if (lane.probe) {
+      lane.probe_bent = lane.probe_bent || !straight_through;
+    } else if (diffuse_is_cached && s.kind == LobeKind::diffuse) {
+      lane.probe = true;
+      lane.probe_bent = false;
+    }
     lane.caustic.event(s.kind, straight_through, next);
     ++lane.depth;
     // Shadow rays pass thin walls too: light sampling at the last vertex competes with this path

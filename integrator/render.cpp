@@ -39,6 +39,8 @@ constexpr std::uint32_t light_batch = 4096;
 constexpr std::uint32_t batches_at_once = 64;
 // With cached light, pixels all have so many samples before any has more.
 constexpr std::uint32_t even_samples = 4;
+// Pixels darker than this share of the picture's mean are sampled as if they were as bright.
+constexpr double dark_share = 0.2;
 // The share of the whole error that is left to the cache.
 constexpr double cache_share = 0.5;
 // Limited by time, the cache starts with this error, and gets better by this factor again and
@@ -136,7 +138,8 @@ class Film {
 
   // Estimated from the spread of its samples: the variance of pixel i's mean brightness, relative
   // as in relMSE.
-  double relative_variance(std::size_t i) const {
+  // dark: what a dark pixel's square is taken as.
+  double relative_variance(std::size_t i, double dark = 0.01) const {
     const PixelSums& p = pixels_[i];
     if (p.samples < 2) return 0.0;
     const double n = p.samples;
@@ -144,7 +147,7 @@ class Film {
     for (const Color& c : p.terms) sum += (double(c.x) + c.y + c.z) / 3.0;
     const double mean = sum / n;
     const double variance = std::max(0.0, double(p.squares) / n - mean * mean) / (n - 1.0);
-    return variance / (mean * mean + 0.01);
+    return variance > 0.0 ? variance / (mean * mean + dark) : 0.0;
   }
 
   // Estimated √relMSE.
@@ -158,8 +161,16 @@ class Film {
   // pixel and those around it, since one that has met nothing yet looks calm.
   std::vector<float> spread() const {
     std::vector<float> own(pixels_.size()), result(pixels_.size());
+    // Relative to the picture's own brightness, so that twice the light is sampled alike.
+    double brightness = 0.0;
     for (std::size_t i = 0; i < own.size(); ++i) {
-      own[i] = static_cast<float>(std::sqrt(relative_variance(i) * pixels_[i].samples));
+      const Color c = beauty(i);
+      brightness += (double(c.x) + c.y + c.z) / 3.0;
+    }
+    brightness /= static_cast<double>(own.size());
+    const double dark = dark_share * brightness * dark_share * brightness;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      own[i] = static_cast<float>(std::sqrt(relative_variance(i, dark) * pixels_[i].samples));
     }
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {

@@ -71,15 +71,14 @@ void add_limit_options(CLI::App& app, RenderSettings& settings) {
 void add_light_options(CLI::App& app, RenderOptions& options) {
   const std::string group = "Light";
   RenderSettings& settings = options.settings;
-  add_value_option(app, "--integrator", "NAME",
-                   "How light is computed: path (unbiased path tracing) or light-vectors (caches) "
-                   "[path]",
-                   [&options](const std::string& text) {
-                     const std::string word =
-                         parse_word("--integrator", text, {"path", "light-vectors"});
-                     options.settings.integrator =
-                         word == "path" ? Integrator::path : Integrator::light_vectors;
-                   })
+  add_value_option(
+      app, "--integrator", "NAME",
+      "How light is computed: path (unbiased path tracing) or light-vectors (caches) "
+      "[path]",
+      [&options](const std::string& text) {
+        const std::string word = parse_word("--integrator", text, {"path", "light-vectors"});
+        options.settings.integrator = word == "path" ? Integrator::path : Integrator::light_vectors;
+      })
       ->group(group);
   add_value_option(
       app, "--terms", "LIST",
@@ -123,12 +122,9 @@ void add_light_options(CLI::App& app, RenderOptions& options) {
 // For developers: not in --help.
 void add_cache_options(CLI::App& app, RenderSettings& settings) {
   const std::string hidden;
-  add_value_option(app, "--cache-error", "PERCENT", "",
-                   [&settings](const std::string& text) {
-                     settings.cache_error =
-                         parse_number_above("--cache-error", text, 0.0, 100.0) / 100.0;
-                   })
-      ->group(hidden);
+  add_value_option(app, "--cache-error", "PERCENT", "", [&settings](const std::string& text) {
+    settings.cache_error = parse_number_above("--cache-error", text, 0.0, 100.0) / 100.0;
+  })->group(hidden);
   const auto part = [&](const char* name, bool& value) {
     app.add_flag_callback(name, [&value] { value = false; })->group(hidden);
   };
