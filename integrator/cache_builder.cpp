@@ -24,6 +24,8 @@ constexpr std::uint32_t most_passes = 4096;
 // Records whose own noise is still above so many times the error take up to so many times more.
 constexpr double most_noise = 4.0;
 constexpr std::uint32_t noisy_growth = 16;
+// Those that have met no light at all after so many times their hemispheres are dark.
+constexpr std::uint32_t dark_growth = 4;
 // A place wants a record of its own unless those around it have this weight together.
 constexpr float wanted_weight = 0.4f;
 // Pixels make do with less: what lies between places that were asked for.
@@ -201,7 +203,9 @@ bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& 
     std::vector<std::uint32_t> wanting;
     for (std::uint32_t i = 0; i < places_.size(); ++i) {
       const IrradianceRecord& r = cache_.record(i);
-      const bool noisy = r.variance > most_variance_ && r.passes < noisy_growth * passes_;
+      const bool noisy =
+          r.variance > most_variance_ &&
+          r.passes < (r.light.flux == Color(0.0f) ? dark_growth : noisy_growth) * passes_;
       if (!settled_ || r.passes < passes_ || noisy) wanting.push_back(i);
     }
     if (wanting.empty()) break;

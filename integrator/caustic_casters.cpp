@@ -44,6 +44,7 @@ float sharpest_lobe(const Scene& scene, const Material& m, float specular_roughn
     sharpest = std::min(sharpest,
                         least_roughness(scene, m.clearcoat_roughness, m.clearcoat_roughness_map));
   }
+  if (sharpest >= specular_roughness && !may_be_glossy(m)) return 1.0f;
   return sharpest;
 }
 

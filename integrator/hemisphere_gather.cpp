@@ -22,8 +22,9 @@ constexpr float longest_share = 1.0f;
 constexpr float dark_share = 0.1f;
 // Where the light changes by this share of itself, linear extrapolation ends.
 constexpr float most_change = 1.0f;
-// Cells below this sine of elevation (the lowest rings) say what stands close by.
-constexpr int low_rings = 3;
+// Paths through the rings from this one down, less steep than two to one, say what stands close by:
+// a wall is met above its foot.
+constexpr int first_flat_ring = HemisphereGather::rings / 5;
 
 float mean(const Color& c) {
   return (c.x + c.y + c.z) * (1.0f / 3.0f);
@@ -139,10 +140,12 @@ void HemisphereGather::Hemisphere::sum(const Frame& frame) {
   for (std::size_t s = 0; s < clearance.size(); ++s) {
     clearance[s] = far_away * mean_distance;
     constexpr int width = sectors / static_cast<int>(IrradianceRecord::sector_count);
-    for (int j = rings - low_rings; j < rings; ++j) {
+    for (int j = first_flat_ring; j < rings; ++j) {
       for (int k = -1; k <= width; ++k) {
         const int column = (static_cast<int>(s) * width + k + sectors) % sectors;
-        clearance[s] = std::min(clearance[s], distance[std::size_t(j * sectors + column)]);
+        const auto i = static_cast<std::size_t>(j * sectors + column);
+        const float along = distance[i] * std::hypot(direction[i].x, direction[i].y);
+        clearance[s] = std::min(clearance[s], along);
       }
     }
   }

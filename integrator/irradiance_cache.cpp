@@ -20,7 +20,7 @@ constexpr float parallel_cosine = 1.0f - 1e-5f;
 constexpr float off_plane_reach = 0.25f;
 // Where pixels are larger than records reach they reach this many pixels: finer detail than that is
 // not asked for.
-constexpr float least_pixels = 2.5f;
+constexpr float least_pixels = 1.5f;
 // Linear extrapolation changes the irradiance by at most this factor.
 constexpr float most_gain = 2.0f, least_gain = 0.5f;
 // Visibility is tested between points that are lifted off their surfaces by this share of their

@@ -70,7 +70,8 @@ struct IrradianceRecord {
   // scene units, and the unit direction of the shorter one.
   float radius_small = 0.0f, radius_large = 0.0f;
   V2f axis{1.0f, 0.0f};
-  // Distance to the nearest thing low above the surface, by sectors of azimuth in the same axes.
+  // Distance along the surface to the nearest thing that stands there, by sectors of azimuth in the
+  // same axes.
   static constexpr std::size_t sector_count = 8;
   std::array<float, sector_count> clearance{};
   float least_reach = 0.0f;    // how far it is looked for at least, at a budget of 1, scene units
