@@ -73,7 +73,7 @@ void add_light_options(CLI::App& app, RenderOptions& options) {
   RenderSettings& settings = options.settings;
   add_value_option(
       app, "--integrator", "NAME",
-      "How light is computed: path (unbiased path tracing) or light-vectors (caches) "
+      "How light is computed: path (unbiased) or light-vectors (indirect light cached) "
       "[path]",
       [&options](const std::string& text) {
         const std::string word = parse_word("--integrator", text, {"path", "light-vectors"});
