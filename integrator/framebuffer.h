@@ -42,8 +42,8 @@ struct RenderStatistics {
   std::uint64_t rays_camera = 0;
   std::uint64_t rays_scatter = 0;
   std::uint64_t rays_shadow = 0;
-  std::uint64_t samples = 0;      // camera paths in all
-  std::uint64_t light_paths = 0;  // paths started at lights
+  std::uint64_t samples = 0;          // camera paths in all
+  std::uint64_t light_paths = 0;      // paths started at lights
   std::uint64_t gather_paths = 0;     // paths that made records
   std::uint64_t rays_visibility = 0;  // short tests toward records
   std::uint64_t cache_hits = 0, cache_misses = 0;

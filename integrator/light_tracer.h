@@ -33,8 +33,8 @@ struct BoundingSphere {
   float worth = 1.0f;  // of a path toward it, relative to others at the same solid angle
 };
 
-// Spheres around everything that may have specular or glossy lobes; near ones are joined until there are
-// few.
+// Spheres around everything that may have specular or glossy lobes; near ones are joined until
+// there are few.
 std::vector<BoundingSphere> caustic_casters(const TracedScene& scene, float specular_roughness);
 
 class LightTracer {
