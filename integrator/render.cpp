@@ -73,6 +73,11 @@ void check(const RenderSettings& s) {
   }
   if (s.max_depth < 0)
     throw RenderError("the maximal depth must not be negative; 0 means no limit");
+  if (!(s.cache_error > 0.0) || !std::isfinite(s.cache_error))
+    throw RenderError("the error of cached light must be a positive fraction");
+  if (s.integrator == Integrator::light_vectors && s.validity == Validity::paper) {
+    throw RenderError("records by the paper's criteria cannot be rendered from yet; use hessian");
+  }
 }
 
 // Sums over all samples so far, and the tiles that share them out.
@@ -150,10 +155,13 @@ class Film {
     return variance > 0.0 ? variance / (mean * mean + dark) : 0.0;
   }
 
-  // Estimated √relMSE.
+  // Estimated √relMSE; −1 where a pixel has too few samples to tell.
   double relative_error() const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < pixels_.size(); ++i) sum += relative_variance(i);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+      if (pixels_[i].samples < 2) return -1.0;
+      sum += relative_variance(i);
+    }
     return std::sqrt(sum / static_cast<double>(pixels_.size()));
   }
 
@@ -366,7 +374,7 @@ class StillRender {
       done += pass;
       if (done <= 1) continue;
       picture_error_ = film_.relative_error();
-      if (settings_.error > 0.0 && done >= even &&
+      if (settings_.error > 0.0 && done >= even && picture_error_ >= 0.0 &&
           picture_error_ <= estimate_margin * settings_.error) {
         break;
       }

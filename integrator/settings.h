@@ -50,7 +50,7 @@ constexpr int max_picture_samples = 1 << 22;  // a pixel
 
 struct RenderSettings {
   Integrator integrator = Integrator::path;
-  Validity validity = Validity::hessian;  // light_vectors only
+  Validity validity = Validity::hessian;  // light_vectors only; render() knows no other yet
   PaperParameters paper;
   ValidityParts validity_parts;
   // Relative error of cached light that is aimed at where `error` is 0: radii and sample counts of

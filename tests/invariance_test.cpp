@@ -168,7 +168,9 @@ TEST(invariance, black_and_white_surfaces) {
 TEST(hard_geometry, wall_of_zero_thickness) {
   Scene scene;
   add_mesh(scene, box({-2, -1, -1}, {2, 1, 1}, true), diffuse(Color(0.8f)));
-  add_mesh(scene, quad({0, -1, -1}, {0, 2, 0}, {0, 0, 2}), diffuse(Color(0.8f)));
+  Material wall = diffuse(Color(0.8f));
+  wall.double_sided = true;  // else the eye would look through its back
+  add_mesh(scene, quad({0, -1, -1}, {0, 2, 0}, {0, 0, 2}), wall);
   add_mesh(scene, quad({0.2f, 0.9f, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}), emitter(Color(1e6f)));
   Light light;
   light.intensity = Color(1e6f);
@@ -177,6 +179,30 @@ TEST(hard_geometry, wall_of_zero_thickness) {
   for (const V3d& target : {V3d(0, 0, 0), V3d(0, -1, -1), V3d(-0.1, 1, 0), V3d(-2, 0, 0)}) {
     const Camera camera = perspective_camera({-1.5, 0.2, 0.3}, target, 1.2);
     expect_black(beauty(render_clean(scene, camera, square(size, 32))));
+  }
+}
+
+// The eye looks through the backs of one-sided surfaces, and light is stopped by them.
+TEST(hard_geometry, backs_of_one_sided_surfaces) {
+  const Camera camera = perspective_camera({0, 0, 3}, {0, 0, 0}, 0.3);
+  for (const bool double_sided : {false, true}) {
+    Scene scene;
+    // Seen from the front, lit from behind the eye, with the sheet's back in between.
+    add_mesh(scene, quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), diffuse(Color(0.5f)));
+    Material sheet = diffuse(Color(0.5f));
+    sheet.double_sided = double_sided;
+    add_mesh(scene, quad({-9, -9, 1}, {0, 18, 0}, {18, 0, 0}), sheet);
+    Light light;
+    light.object_to_world = translation({0, 0, 2});
+    scene.lights = {light};
+    const Framebuffer picture = render_clean(scene, camera, square(8, 4));
+    const float depth = double_sided ? 2.0f : 3.0f;
+    for (const float d : picture.depth) EXPECT_NEAR(d, depth, 1e-5f);
+    if (double_sided) {
+      EXPECT_GT(beauty(picture)[0].x, 0.0f);
+    } else {
+      expect_black(beauty(picture));
+    }
   }
 }
 
