@@ -1,4 +1,4 @@
-// Channel-wise helpers of the BSDF's sources.
+// Channel-wise helpers for colours.
 #pragma once
 
 #include <algorithm>

@@ -40,16 +40,6 @@ constexpr std::uint32_t fewest_to_end_in = 512;
 // Records that are made at a time, without knowing of each other.
 constexpr std::size_t batch_size = 64;
 
-// What the making of records adds to the counts of a picture.
-void add(const RenderStatistics& from, RenderStatistics& to) {
-  to.rays_camera += from.rays_camera;
-  to.rays_scatter += from.rays_scatter;
-  to.rays_shadow += from.rays_shadow;
-  to.rays_visibility += from.rays_visibility;
-  to.gather_paths += from.gather_paths;
-  for (std::size_t t = 0; t < term_count; ++t) to.dropped[t] += from.dropped[t];
-}
-
 template <typename Body>
 void for_each(std::size_t count, const Body& body) {
   tbb::parallel_for(
@@ -93,6 +83,14 @@ CacheUse CacheBuilder::use() const {
   return use;
 }
 
+// round: of what the record goes through, so that none repeats another's random numbers.
+std::uint32_t CacheBuilder::record_seed(std::uint32_t record, std::uint32_t round) const {
+  constexpr std::uint32_t record_stream = 0x7ec02du;  // apart from the pixels' random numbers
+  const std::uint32_t seed = hash_combine(static_cast<std::uint32_t>(settings_.seed),
+                                          static_cast<std::uint32_t>(settings_.seed >> 32));
+  return hash_combine(hash_combine(hash_combine(seed, record_stream), record), round);
+}
+
 std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles, int stride,
                                                  float weight, RenderStatistics& statistics) const {
   std::vector<std::vector<RecordRequest>> found(tiles.size());
@@ -113,8 +111,9 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
     std::vector<PixelSums> sums(std::size_t(tile.width) * std::size_t(tile.height));
     RenderStatistics counts;
     tracer_.render_ranges(tile, pixels, sums, counts, asking);
+    counts.samples = counts.cache_hits = counts.cache_misses = 0;  // none was for the picture
     const std::lock_guard lock(mutex);
-    add(counts, statistics);
+    statistics.add_counts(counts);
   });
   std::vector<RecordRequest> all;
   for (const std::vector<RecordRequest>& some : found) {
@@ -135,10 +134,6 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
 
 bool CacheBuilder::make_records(std::vector<RecordRequest>& requests, float weight,
                                 const std::function<bool()>& go_on, RenderStatistics& statistics) {
-  const auto seed_low = static_cast<std::uint32_t>(settings_.seed);
-  const auto seed_high = static_cast<std::uint32_t>(settings_.seed >> 32);
-  constexpr std::uint32_t record_stream = 0x7ec02du;  // apart from the pixels' random numbers
-  const std::uint32_t seed = hash_combine(hash_combine(seed_low, seed_high), record_stream);
   std::size_t next = 0;
   std::mutex mutex;
   while (next < requests.size()) {
@@ -164,12 +159,11 @@ bool CacheBuilder::make_records(std::vector<RecordRequest>& requests, float weig
     for_each(batch.size(), [&](std::size_t i) {
       RenderStatistics counts;
       const auto number = static_cast<std::uint32_t>(places_.size() + i);
-      records[i] =
-          gather_->make(requests[batch[i]], hash_combine(seed, number), counts, path_ends());
+      records[i] = gather_->make(requests[batch[i]], record_seed(number, 0), counts, path_ends());
       const float footprint = requests[batch[i]].point.footprint;
       records[i].least_reach = IrradianceCache::least_reach(footprint, budget_);
       const std::lock_guard lock(mutex);
-      add(counts, statistics);
+      statistics.add_counts(counts);
     });
     for (std::size_t i = 0; i < batch.size(); ++i) {
       if (!cache_.insert(records[i])) return true;  // full: pixels trace what they do not find
@@ -222,13 +216,10 @@ bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& 
         IrradianceRecord record = cache_.record(index);
         // What whole paths brought is noisy, and what ended in records of such paths is too.
         if (!settled_) record.passes = 0;
-        const std::uint32_t seed = hash_combine(
-            hash_combine(static_cast<std::uint32_t>(settings_.seed), 0x5eed0000u + index),
-            settled_ ? 1u : 0u);
-        gather_->refine(record, places_[index], seed, counts, ends);
+        gather_->refine(record, places_[index], record_seed(index, settled_ ? 2 : 1), counts, ends);
         refined[first + i] = record;
         const std::lock_guard lock(mutex);
-        add(counts, statistics);
+        statistics.add_counts(counts);
       });
     }
     for (std::size_t i = 0; i < wanting.size(); ++i) cache_.edit(wanting[i]) = refined[i];

@@ -38,6 +38,7 @@ class CacheBuilder {
   // Averages hemispheres, whose paths end in the cache, into records until each has enough. The
   // first replaces what whole paths brought.
   bool refine(const std::function<bool()>& go_on, RenderStatistics& statistics);
+  std::uint32_t record_seed(std::uint32_t record, std::uint32_t round) const;
   // Where paths that gather light may end.
   CacheUse path_ends() const;
   std::vector<RecordRequest> collect(const std::vector<Tile>& tiles, int stride,

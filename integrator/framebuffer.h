@@ -54,6 +54,20 @@ struct RenderStatistics {
       dropped{};                 // non-finite samples left out, by the term that was not finite
   double error_estimate = -1.0;  // own estimate of √relMSE, as a fraction; < 0: none was made
   bool stopped_early = false;    // by the caller
+
+  // Adds up what was traced; times and estimates are left alone.
+  void add_counts(const RenderStatistics& from) {
+    rays_camera += from.rays_camera;
+    rays_scatter += from.rays_scatter;
+    rays_shadow += from.rays_shadow;
+    rays_visibility += from.rays_visibility;
+    samples += from.samples;
+    light_paths += from.light_paths;
+    gather_paths += from.gather_paths;
+    cache_hits += from.cache_hits;
+    cache_misses += from.cache_misses;
+    for (std::size_t i = 0; i < term_count; ++i) dropped[i] += from.dropped[i];
+  }
 };
 
 }  // namespace lumivec

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "integrator/bsdf_color.h"
 #include "integrator/form_factor_derivatives.h"
 #include "integrator/frame.h"
 #include "integrator/sampling.h"
@@ -25,10 +26,6 @@ constexpr float most_change = 1.0f;
 // Paths through the rings from this one down, less steep than two to one, say what stands close by:
 // a wall is met above its foot.
 constexpr int first_flat_ring = HemisphereGather::rings / 5;
-
-float mean(const Color& c) {
-  return (c.x + c.y + c.z) * (1.0f / 3.0f);
-}
 
 }  // namespace
 
@@ -60,14 +57,13 @@ void HemisphereGather::Hemisphere::trace(const PathTracer& tracer, const TracedS
   thread_local std::vector<GatherRay> rays;
   thread_local std::vector<GatherResult> results;
   rays.clear();
-  const float azimuth_shift = 0.0f;
   std::array<int, cells> ray_of;
   for (int j = 0; j < rings; ++j) {
     for (int k = 0; k < sectors; ++k) {
       const int cell = j * sectors + k;
       const std::array<float, 4> u = sobol_point(static_cast<std::uint32_t>(cell), seed);
       const float sine2 = (static_cast<float>(j) + u[0]) / rings;
-      const float turn = (static_cast<float>(k) + u[1]) / sectors + azimuth_shift;
+      const float turn = (static_cast<float>(k) + u[1]) / sectors;
       const V2f azimuth = unit_circle(turn >= 1.0f ? 0.0f : turn);
       const float sine = std::sqrt(sine2), cosine = std::sqrt(std::max(0.0f, 1.0f - sine2));
       // Azimuth −π first, as clearance counts its sectors.

@@ -27,7 +27,8 @@ constexpr float most_gain = 2.0f, least_gain = 0.5f;
 // distance, so that the surfaces' own unevenness does not count.
 constexpr float lift = 0.02f;
 
-constexpr std::uint64_t point_bytes = 32;  // of PointTree
+// Of a record and of its places in the tree: as it was inserted, and as it is packed.
+constexpr std::uint64_t record_bytes = sizeof(IrradianceRecord) + 64;
 
 float reach(const IrradianceRecord& r) {
   return std::max(r.radius_large, r.least_reach);
@@ -51,11 +52,11 @@ float IrradianceCache::least_reach(float footprint, float budget) {
 }
 
 std::uint64_t IrradianceCache::bytes() const {
-  return std::uint64_t{size()} * (sizeof(IrradianceRecord) + point_bytes);
+  return tree_.bytes() + records_.bytes();
 }
 
 bool IrradianceCache::full() const {
-  return bytes() + sizeof(IrradianceRecord) + point_bytes > max_bytes_;
+  return (std::uint64_t{size()} + 1) * record_bytes > max_bytes_;
 }
 
 bool IrradianceCache::insert(const IrradianceRecord& record) {

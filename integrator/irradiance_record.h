@@ -22,10 +22,6 @@ struct LightSum {
     for (std::size_t c = 0; c < 3; ++c) vector[c] += light[static_cast<int>(c)] * direction;
     flux += light;
   }
-  void add(const LightSum& other, float weight) {
-    for (std::size_t c = 0; c < 3; ++c) vector[c] += weight * other.vector[c];
-    flux += weight * other.flux;
-  }
   // On the surface with this normal at which the sum was taken, lx. Not negative.
   Color irradiance(const V3f& normal) const {
     return {std::max(0.0f, vector[0].dot(normal)), std::max(0.0f, vector[1].dot(normal)),

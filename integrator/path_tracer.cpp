@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "integrator/bsdf_color.h"
 #include "integrator/media.h"
 #include "integrator/partition.h"
 #include "integrator/sampling.h"
@@ -38,14 +39,6 @@ constexpr float endless_survival = 0.99f;
 
 float max_component(const Color& c) {
   return std::max({c.x, c.y, c.z});
-}
-
-float mean(const Color& c) {
-  return (c.x + c.y + c.z) * (1.0f / 3.0f);
-}
-
-bool is_black(const Color& c) {
-  return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f;
 }
 
 bool is_finite(const Color& c) {
@@ -120,10 +113,9 @@ struct Lane {
   std::uint32_t seed = 0;          // of the pixel
   std::uint32_t continuation = 0;  // of the splits that leave the first vertex
   std::uint32_t splits = usual_splits;
-  bool probe_bent =
-      false;            // … and has since had an S event other than straight through a thin wall
-  bool probe = false;   // left a diffuse lobe whose other light is cached: brings caustics alone
-  float length = 0.0f;  // of the path from the eye, scene units
+  bool probe = false;  // left a diffuse lobe whose other light is cached: brings caustics alone
+  bool probe_bent = false;  // since then an S event other than straight through a thin wall
+  float length = 0.0f;      // of the path from the eye, scene units
   std::optional<Fork> fork;
   int depth = 0;  // scattering events so far
 

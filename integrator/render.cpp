@@ -283,18 +283,6 @@ class ErrorEstimate {
   double error_ = -1.0;
 };
 
-void add_counts(const RenderStatistics& from, RenderStatistics& to) {
-  to.rays_camera += from.rays_camera;
-  to.rays_scatter += from.rays_scatter;
-  to.rays_shadow += from.rays_shadow;
-  to.samples += from.samples;
-  to.light_paths += from.light_paths;
-  to.rays_visibility += from.rays_visibility;
-  to.cache_hits += from.cache_hits;
-  to.cache_misses += from.cache_misses;
-  for (std::size_t i = 0; i < term_count; ++i) to.dropped[i] += from.dropped[i];
-}
-
 // One render from the first pass to the last.
 class StillRender {
  public:
@@ -495,7 +483,7 @@ class StillRender {
             sample(tile, sums, counts);
             film_.add(tile, sums, first_pass);
             const std::lock_guard lock(mutex_);
-            add_counts(counts, statistics_);
+            statistics_.add_counts(counts);
             note_progress(first_pass ? 0 : 1);
           }
         },
@@ -524,7 +512,7 @@ class StillRender {
               splats[i].clear();
               light_tracer_.trace(first, size, splats[i], counts);
               const std::lock_guard lock(mutex_);
-              add_counts(counts, statistics_);
+              statistics_.add_counts(counts);
             }
           },
           tbb::simple_partitioner());
