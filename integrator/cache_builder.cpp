@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "integrator/bsdf_color.h"
 #include "integrator/denormals.h"
 #include "integrator/sampling.h"
 #include "integrator/sobol.h"
@@ -24,6 +25,8 @@ constexpr std::uint32_t most_passes = 4096;
 // Records whose own noise is still above so many times the error take up to so many times more.
 constexpr double most_noise = 4.0;
 constexpr std::uint32_t noisy_growth = 16;
+// Records darker than this share of their mean are judged as if they had it.
+constexpr float dark_share = 0.02f;
 // Those that have met no light at all after so many times their hemispheres are dark.
 constexpr std::uint32_t dark_growth = 4;
 // A place wants a record of its own unless those around it have this weight together.
@@ -193,13 +196,20 @@ bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& 
   constexpr std::size_t group = 64;
   std::vector<IrradianceRecord> refined;
   std::mutex mutex;
+  const auto brightness = [&](const IrradianceRecord& r) {
+    return mean(r.light.irradiance(r.normal));
+  };
   while (true) {
     std::vector<std::uint32_t> wanting;
+    float usual = 0.0f;
+    for (std::uint32_t i = 0; i < places_.size(); ++i) usual += brightness(cache_.record(i));
+    usual /= std::max(1.0f, static_cast<float>(places_.size()));
     for (std::uint32_t i = 0; i < places_.size(); ++i) {
       const IrradianceRecord& r = cache_.record(i);
-      const bool noisy =
-          r.variance > most_variance_ &&
-          r.passes < (r.light.flux == Color(0.0f) ? dark_growth : noisy_growth) * passes_;
+      const bool dark = r.light.flux == Color(0.0f);
+      const float share = dark ? 1.0f : std::min(1.0f, brightness(r) / (dark_share * usual));
+      const bool noisy = r.variance * share * share > most_variance_ &&
+                         r.passes < (dark ? dark_growth : noisy_growth) * passes_;
       if (!settled_ || r.passes < passes_ || noisy) wanting.push_back(i);
     }
     if (wanting.empty()) break;
