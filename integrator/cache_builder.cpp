@@ -81,6 +81,7 @@ CacheUse CacheBuilder::path_ends() const {
 CacheUse CacheBuilder::use() const {
   CacheUse use;
   use.indirect = &cache_;
+  use.photons = photons_;
   use.budget = budget_;
   use.needed_weight = needed_weight;
   return use;

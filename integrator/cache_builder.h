@@ -24,6 +24,9 @@ class CacheBuilder {
   // hemispheres follow from it.
   void set_error(double error);
 
+  // What light paths bring, to records and to pixels alike; null: nothing. Must outlive this.
+  void set_photons(const PhotonMap* photons) { photons_ = photons; }
+
   // Makes the records that the tiles lack, and makes all as good as the error asks. go_on is asked
   // between batches; false ends it early. False: ended.
   bool build(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
@@ -50,6 +53,7 @@ class CacheBuilder {
   const RenderSettings& settings_;
   IrradianceCache& cache_;
   const TracedScene& scene_;
+  const PhotonMap* photons_ = nullptr;
   float budget_ = 0.0f;         // scene units², see IrradianceCache
   float most_variance_ = 0.0f;  // of a record's irradiance, relative
   std::uint32_t passes_ = 1;    // hemispheres of a record

@@ -44,6 +44,7 @@ struct RenderStatistics {
   std::uint64_t rays_shadow = 0;
   std::uint64_t samples = 0;          // camera paths in all
   std::uint64_t light_paths = 0;      // paths started at lights
+  std::uint64_t photons = 0;          // that light paths brought to maps
   std::uint64_t gather_paths = 0;     // paths that made records
   std::uint64_t rays_visibility = 0;  // short tests toward records
   std::uint64_t cache_hits = 0, cache_misses = 0;
@@ -63,6 +64,7 @@ struct RenderStatistics {
     rays_visibility += from.rays_visibility;
     samples += from.samples;
     light_paths += from.light_paths;
+    photons += from.photons;
     gather_paths += from.gather_paths;
     cache_hits += from.cache_hits;
     cache_misses += from.cache_misses;

@@ -205,12 +205,34 @@ bool LightTracer::start(float u_source, const V2f& u_point, float u_aim, const V
 
 void LightTracer::trace(std::uint64_t first, std::uint32_t count, std::vector<Splat>& splats,
                         RenderStatistics& statistics) const {
-  for (std::uint32_t i = 0; i < count; ++i) trace_path(first + i, splats, statistics);
+  const auto arrive = [&](const Arrival& a) { connect(a, splats, statistics); };
+  for (std::uint32_t i = 0; i < count; ++i) trace_path(first + i, true, statistics, arrive);
   statistics.light_paths += count;
 }
 
-void LightTracer::trace_path(std::uint64_t path, std::vector<Splat>& splats,
-                             RenderStatistics& statistics) const {
+void LightTracer::trace(std::uint64_t first, std::uint32_t count, std::vector<Photon>& photons,
+                        RenderStatistics& statistics) const {
+  const auto arrive = [&](const Arrival& a) {
+    Photon photon;
+    photon.position = a.point.position;
+    photon.direction = a.wo;
+    photon.normal = a.point.geometric_normal;
+    photon.flux = a.flux;
+    photon.caustic = a.covered.glossy;
+    photon.events = static_cast<std::uint16_t>(std::min(a.events, 65535));
+    if (!(std::isfinite(a.flux.x) && std::isfinite(a.flux.y) && std::isfinite(a.flux.z))) {
+      ++statistics.dropped[static_cast<std::size_t>(a.term)];
+      return;
+    }
+    photons.push_back(photon);
+  };
+  for (std::uint32_t i = 0; i < count; ++i) trace_path(first + i, false, statistics, arrive);
+  statistics.light_paths += count;
+}
+
+template <typename Arrive>
+void LightTracer::trace_path(std::uint64_t path, bool past_broad, RenderStatistics& statistics,
+                             const Arrive& arrive) const {
   // Light paths share one sequence per 2³² of them; the last block number keeps them apart from the
   // pixels' sequences.
   constexpr std::uint32_t light_path_stream = 0x11647u;
@@ -260,19 +282,20 @@ void LightTracer::trace_path(std::uint64_t path, std::vector<Splat>& splats,
                           specular_caustic || caustic};
     if ((here.broad && bsdf.has_broad()) || (here.glossy && bsdf.has(LobeKind::glossy))) {
       const Term term = diffused ? Term::indirect : Term::caustic;
-      connect(point, parameters.normal, bsdf, wo, begin.flux * weight, media.top(), term, here,
-              ray_seed, splats, statistics);
+      arrive({point, parameters.normal, bsdf, wo, begin.flux * weight, media.top(), term, here,
+              ray_seed, depth});
     }
     const std::array<float, 4> u = random();
     BsdfSample s;
     constexpr std::uint32_t sharp_kinds = kind_bit(LobeKind::glossy) | kind_bit(LobeKind::specular);
-    // A broad event now would be none of this tracer's business.
-    const bool drawn = here.broad ? bsdf.sample(u[0], V2f(u[1], u[2]), s)
-                                  : bsdf.with_only(sharp_kinds).sample(u[0], V2f(u[1], u[2]), s);
+    // A broad event now would be none of this tracer's business, or is beyond it.
+    const bool drawn = here.broad && past_broad
+                           ? bsdf.sample(u[0], V2f(u[1], u[2]), s)
+                           : bsdf.with_only(sharp_kinds).sample(u[0], V2f(u[1], u[2]), s);
     if (!drawn) return;
     if (s.kind != LobeKind::specular) {
       const bool broad = is_broad(s.kind);
-      specular_caustic = here.glossy;
+      specular_caustic = here.glossy && past_broad;
       patchy = patchy || (broad && here.broad);
       run = run && !broad;
       diffused = true;
@@ -313,34 +336,32 @@ bool LightTracer::visible_to_eye(const SurfacePoint& point, const V3f& to_eye, f
 }
 
 // Adds what a vertex sends toward the eye, if the eye sees it.
-void LightTracer::connect(const SurfacePoint& point, const V3f& shading_normal, const Bsdf& bsdf,
-                          const V3f& wo, const Color& flux, const Material* medium, Term term,
-                          Covered covered, std::uint32_t seed, std::vector<Splat>& splats,
+void LightTracer::connect(const Arrival& a, std::vector<Splat>& splats,
                           RenderStatistics& statistics) const {
-  if ((settings_.terms & term_bit(term)) == 0) return;
+  if ((settings_.terms & term_bit(a.term)) == 0) return;
   V2f pixel;
   V3f to_eye;
   float distance, importance;
-  if (!camera_.project(point.position, pixel, to_eye, distance, importance)) return;
-  const BsdfValue value_to_eye = bsdf.eval(to_eye);
+  if (!camera_.project(a.point.position, pixel, to_eye, distance, importance)) return;
+  const BsdfValue value_to_eye = a.bsdf.eval(to_eye);
   Color f(0.0f);
-  if (covered.broad) f += value_to_eye.of_broad();
-  if (covered.glossy) f += value_to_eye.of(LobeKind::glossy);
+  if (a.covered.broad) f += value_to_eye.of_broad();
+  if (a.covered.glossy) f += value_to_eye.of(LobeKind::glossy);
   if (f == Color(0.0f)) return;
   Color value =
-      flux * f *
-      (importance * shading_correction(wo, to_eye, shading_normal, point.geometric_normal));
-  if (medium) value *= volume_transmittance(*medium, distance);
+      a.flux * f *
+      (importance * shading_correction(a.wo, to_eye, a.shading_normal, a.point.geometric_normal));
+  if (a.medium) value *= volume_transmittance(*a.medium, distance);
   for (int c = 0; c < 3; ++c) {
     if (std::isfinite(value[c])) continue;
-    ++statistics.dropped[static_cast<std::size_t>(term)];
+    ++statistics.dropped[static_cast<std::size_t>(a.term)];
     return;
   }
-  if (!visible_to_eye(point, to_eye, distance, seed, statistics)) return;
+  if (!visible_to_eye(a.point, to_eye, distance, a.seed, statistics)) return;
   filter_.for_each_pixel(pixel, settings_.width, settings_.height, [&](int x, int y, float share) {
     const auto index = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(settings_.width) +
                        static_cast<std::uint32_t>(x);
-    splats.push_back({index, term, value * share});
+    splats.push_back({index, a.term, value * share});
   });
 }
 

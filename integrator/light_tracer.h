@@ -16,6 +16,7 @@
 #include "integrator/camera_view.h"
 #include "integrator/framebuffer.h"
 #include "integrator/lights.h"
+#include "integrator/photon_map.h"
 #include "integrator/pixel_filter.h"
 
 namespace lumivec {
@@ -52,6 +53,11 @@ class LightTracer {
   void trace(std::uint64_t first, std::uint32_t count, std::vector<Splat>& splats,
              RenderStatistics& statistics) const;
 
+  // Likewise what they bring to the caches: photons where light lands on a non-specular lobe over
+  // specular ones, and on a broad lobe over specular and glossy ones. Paths end at broad lobes.
+  void trace(std::uint64_t first, std::uint32_t count, std::vector<Photon>& photons,
+             RenderStatistics& statistics) const;
+
  private:
   struct Source {
     int emitter = -1;  // of Lights::emitters; -1: directional
@@ -70,19 +76,34 @@ class LightTracer {
     bool broad = false, glossy = false;
   };
 
+  // A vertex of a light path from which the eye is looked for.
+  struct Arrival {
+    const SurfacePoint& point;
+    V3f shading_normal;
+    const Bsdf& bsdf;
+    V3f wo;  // to where the light comes from
+    Color flux;
+    const Material* medium;  // that the path runs through; null: none
+    Term term;
+    Covered covered;
+    std::uint32_t seed;
+    int events;  // of scattering before
+  };
+
   void add_source(Source source, float intensity, const V3f& position);
   bool start(float u_source, const V2f& u_point, float u_aim, const V2f& u_direction,
              Start& start) const;
   bool start_directional(const Source& source, float u_aim, const V2f& u, Start& start) const;
   bool aim(const Source& source, const V3f& origin, float u_aim, const V2f& u, V3f& direction,
            float& pdf) const;
-  void trace_path(std::uint64_t path, std::vector<Splat>& splats,
-                  RenderStatistics& statistics) const;
+  // past_broad: whether the path goes on by broad lobes.
+  template <typename Arrive>
+  void trace_path(std::uint64_t path, bool past_broad, RenderStatistics& statistics,
+                  const Arrive& arrive) const;
   bool visible_to_eye(const SurfacePoint& point, const V3f& to_eye, float distance,
                       std::uint32_t seed, RenderStatistics& statistics) const;
-  void connect(const SurfacePoint& point, const V3f& shading_normal, const Bsdf& bsdf,
-               const V3f& wo, const Color& flux, const Material* medium, Term term, Covered covered,
-               std::uint32_t seed, std::vector<Splat>& splats, RenderStatistics& statistics) const;
+  void connect(const Arrival& arrival, std::vector<Splat>& splats,
+               RenderStatistics& statistics) const;
 
   const TracedScene& scene_;
   const Lights& lights_;

@@ -25,6 +25,8 @@ constexpr float min_group_share = 0.1f;
 // have a twentieth of the squared error. Only lights that fill much of the scene, relative to its
 // radius, are left to eye paths.
 constexpr float max_light_traced_size = 0.5f;
+// Light paths keep a table for each light that they start from.
+constexpr std::size_t most_large_light_traced = 4096;
 // Shadow rays end this much before their target, relative to their length: rounding of the length
 // itself.
 constexpr float shadow_ray_end = 1.0f - 4e-7f;
@@ -513,8 +515,9 @@ bool Lights::light_traced(const SurfacePoint& hit) const {
   return index >= 0 && emitters_[std::size_t(index)].light_traced;
 }
 
-void Lights::leave_caustics_to_light_paths() {
+void Lights::leave_caustics_to_light_paths(bool of_large_lights) {
   leaves_caustics_ = true;
+  of_large_lights = of_large_lights && emitters_.size() <= most_large_light_traced;
   for (Emitter& e : emitters_) {
     if (e.kind == EmitterKind::point || e.kind == EmitterKind::spot) {
       e.light_traced = true;
@@ -523,7 +526,7 @@ void Lights::leave_caustics_to_light_paths() {
     const bool simple = !e.two_sided && !e.varying && e.kind != EmitterKind::ellipsoid;
     const float size =
         e.kind == EmitterKind::sphere ? e.radius : std::max(e.edge_u.length(), e.edge_v.length());
-    e.light_traced = simple && size < max_light_traced_size * scene_.radius();
+    e.light_traced = simple && (of_large_lights || size < max_light_traced_size * scene_.radius());
   }
 }
 

@@ -73,8 +73,9 @@ class Lights {
   const std::vector<Emitter>& emitters() const { return emitters_; }
   const std::vector<DirectionalLight>& directional() const { return directional_; }
 
-  // Leaves the caustics of punctual and small lights to light paths (light_tracer.h).
-  void leave_caustics_to_light_paths();
+  // Leaves the caustics of punctual and small lights to light paths (light_tracer.h); of large ones
+  // too, unless they are too many, if these bring photons (photon_map.h).
+  void leave_caustics_to_light_paths(bool of_large_lights);
   bool leaves_caustics() const { return leaves_caustics_; }
   // Whether the emissive surface hit is one of those.
   bool light_traced(const SurfacePoint& hit) const;

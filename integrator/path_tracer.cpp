@@ -30,6 +30,11 @@ constexpr std::uint32_t first_continued_block = 2;
 constexpr int first_roulette_depth = 2;
 // A pixel's size grows so many times over where a path that has been scattered lands.
 constexpr float scattered_footprint = 4.0f;
+// Discs of photons that the eye sees have a radius of so many pixels, others of one footprint;
+// none is larger than this share of the scene's radius.
+constexpr float photon_pixels = 2.5f;
+constexpr float longest_photon_radius = 0.05f;
+constexpr std::uint32_t photon_stream = 0x9407u;
 // Survivors of the roulette are at most this much brighter, which bounds the noise that it adds.
 constexpr float min_survival = 0.05f;
 // Paths that lose nothing, between mirrors or by total reflection, end all the same: from this
@@ -54,20 +59,23 @@ float power_heuristic(float taken, float other) {
 
 // What decides whether a path that now ended at certain lights would be left to light_tracer.h.
 struct CausticState {
+  // Light paths bring photons, which are found from wherever the path has come; else they are
+  // connected to the eye, from vertices that it sees directly.
+  bool photons = false;
   bool scattered = false;  // a D event has been, and nothing specular before the first
-  bool broad = false;      // the first of them was one of a broad lobe
+  bool broad = false;      // the first of them, with photons any, was one of a broad lobe
   bool bent = false;       // since the last D: an S event other than straight through a thin wall
   bool patchy = false;     // since the last broad D: such an S event or one of a glossy lobe
 
   void event(LobeKind kind, bool straight, Term after) {
-    if (straight || after == Term::specular) return;
+    if (straight || (!photons && after == Term::specular)) return;
     if (kind == LobeKind::specular) {
       bent = scattered;
       patchy = broad;
       return;
     }
     patchy = kind == LobeKind::glossy && broad;
-    if (!scattered) broad = is_broad(kind);
+    if (!scattered || photons) broad = broad || is_broad(kind);
     scattered = true;
     bent = false;
   }
@@ -140,6 +148,7 @@ struct Lane {
   Term shadow_term[2] = {Term::direct, Term::specular};
 
   std::array<Color, term_count> radiance;
+  float photons = 0.0f;  // brightness that photons brought
   Color albedo{0.0f};
   V3f normal{0.0f}, position{0.0f};
   float hit_depth = 0.0f;
@@ -239,6 +248,7 @@ class PathStream {
   void start(Lane& lane, std::uint64_t path) {
     lane = Lane();
     lane.active = true;
+    lane.caustic.photons = cache_.photons != nullptr;
     lane.camera_ray = true;
     if (ranges_) {
       const SampleRange& range = (*ranges_)[range_];
@@ -287,6 +297,7 @@ class PathStream {
     lane.direction = ray.direction;
     lane.throughput = Color(1.0f);
     lane.term = Term::direct;
+    lane.caustic.photons = cache_.photons != nullptr;
     lane.caustic.event(LobeKind::diffuse, false, Term::direct);
     lane.media = gather_media_;
     lane.hit_depth = std::numeric_limits<float>::infinity();
@@ -452,6 +463,8 @@ class PathStream {
     const bool passes = parameters.transmission > 0.0f;
     const V3f receiver = passes ? V3f(0.0f) : point.geometric_normal;
     const bool may_sample_lights = bsdf.has_non_delta() && !t_.lights_.empty() && !cache_.requests;
+    if (cache_.photons && !lane.probe && !cache_.requests && bsdf.has_non_specular())
+      add_photons(lane, point, bsdf);
     if (cache_.indirect && !lane.probe && bsdf.has(LobeKind::diffuse)) {
       const bool cached = use_cache(lane, point, bsdf);
       if (cached || cache_.requests) {
@@ -468,6 +481,41 @@ class PathStream {
     scatter(lane, point, parameters, bsdf, receiver, may_sample_lights);
   }
 
+  // Size of a pixel, or of what a gathering path stands for, where the path has come to.
+  float footprint(const Lane& lane) const {
+    if (results_) return cache_.spread * lane.length;
+    const float pixel = t_.camera_.footprint(lane.length);
+    return lane.caustic.scattered ? pixel * scattered_footprint : pixel;
+  }
+
+  // Adds what photons bring to the non-specular lobes.
+  void add_photons(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf) {
+    const Term once = after_event(lane.term, LobeKind::diffuse);
+    const Term caustic = after_event(once, LobeKind::specular);
+    const Term patchy = after_event(once, LobeKind::diffuse);
+    if (((term_bit(caustic) | term_bit(patchy)) & terms_) == 0) return;
+    const bool seen = !results_ && !lane.caustic.scattered;
+    PhotonQuery query;
+    query.position = point.position;
+    query.geometric_normal = point.geometric_normal;
+    query.error = point.error;
+    query.radius = std::min((seen ? photon_pixels : 1.0f) * footprint(lane),
+                            longest_photon_radius * t_.scene_.radius());
+    query.gathering = !seen;
+    query.glossy = !lane.caustic.broad;
+    query.seed = hash_combine(hash_combine(lane.seed, lane.sample),
+                              photon_stream + static_cast<std::uint32_t>(lane.depth));
+    if (t_.settings_.max_depth > 0) query.max_events = t_.settings_.max_depth - lane.depth;
+    const PhotonLight light = cache_.photons->reflect(query, bsdf, statistics_);
+    const auto add = [&](Term to, const Color& reflected) {
+      const Color brought = lane.throughput * reflected;
+      lane.add(to, brought);
+      if ((terms_ & term_bit(to)) != 0) lane.photons += mean(brought);
+    };
+    add(caustic, light.caustic);
+    add(patchy, light.patchy);
+  }
+
   // Adds the diffuse lobe's indirect light, where the cache has it; otherwise asks for it.
   bool use_cache(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf) {
     CachePoint at;
@@ -475,12 +523,7 @@ class PathStream {
     at.geometric_normal = point.geometric_normal;
     at.normal = point.normal;
     at.error = point.error;
-    if (results_) {
-      at.footprint = cache_.spread * lane.length;
-    } else {
-      at.footprint = t_.camera_.footprint(lane.length);
-      if (lane.caustic.scattered) at.footprint *= scattered_footprint;
-    }
+    at.footprint = footprint(lane);
     CachedLight light;
     if (!cache_.indirect->look_up(at, cache_.budget, cache_.needed_weight, light,
                                   statistics_.rays_visibility)) {
@@ -500,7 +543,8 @@ class PathStream {
                           const SurfaceParameters& parameters, const Bsdf& bsdf,
                           const V3f& receiver, bool may_sample_lights) {
     // Light paths do not connect to what the eye sees in mirrors.
-    const bool found_by_eye = t_.eye_paths_find_caustics_ || lane.term == Term::specular;
+    const bool found_by_eye =
+        t_.eye_paths_find_caustics_ || (!cache_.photons && lane.term == Term::specular);
     const bool probes = t_.lights_.leaves_caustics() && found_by_eye && !cache_.requests;
     if (probes) {
       if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, true);
@@ -691,6 +735,9 @@ class PathStream {
       brightness += mean(lane.radiance[i]);
     }
     sums.squares += brightness * brightness;
+    const float traced = brightness - lane.photons;
+    sums.traced_squares += traced * traced;
+    sums.photons += lane.photons;
     sums.albedo += lane.albedo;
     sums.normal += lane.normal;
     ++sums.samples;

@@ -18,6 +18,7 @@
 #include "integrator/irradiance_cache.h"
 #include "integrator/lights.h"
 #include "integrator/media.h"
+#include "integrator/photon_map.h"
 #include "integrator/pixel_filter.h"
 #include "integrator/settings.h"
 
@@ -33,7 +34,9 @@ struct PixelSums {
       std::numeric_limits<float>::infinity();  // of the first sample; +inf: nothing was hit
   std::int32_t object = -1;
   std::uint32_t samples = 0;
-  float squares = 0.0f;  // of the samples' brightness, the mean of the channels of all terms
+  float squares = 0.0f;         // of the samples' brightness, the mean of the channels of all terms
+  float traced_squares = 0.0f;  // likewise without what photons brought
+  float photons = 0.0f;         // the samples' brightness that photons brought
 
   PixelSums() { terms.fill(Color(0.0f)); }
 };
@@ -73,6 +76,8 @@ struct CacheUse {
   // Where to note what was not found; null: paths go on there as if there were no cache.
   std::vector<RecordRequest>* requests = nullptr;
   float spread = 0.0f;  // gathering: angle between neighbouring paths, radians
+  // What light paths bring, in place of what they would add to the picture; null: nothing.
+  const PhotonMap* photons = nullptr;
 };
 
 class PathTracer {

@@ -82,6 +82,15 @@ class PointTree {
     packed_root_ = order.empty() ? none : pack(order.data(), order.data() + order.size()).link;
   }
 
+  // Replaces all points by those, which reach nowhere but are found within distances, and packs
+  // them. Not while others use the tree.
+  void assign(const std::vector<V3f>& positions) {
+    clear();
+    nodes_.grow(static_cast<std::uint32_t>(positions.size()));
+    for (std::uint32_t i = 0; i < positions.size(); ++i) nodes_[i].position = positions[i];
+    rebuild([](std::uint32_t) { return 0.0f; });
+  }
+
   // Not while others use the tree.
   void clear() {
     nodes_.clear();

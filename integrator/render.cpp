@@ -37,6 +37,11 @@ constexpr double estimate_margin = 0.9;
 // not show.
 constexpr std::uint32_t light_batch = 4096;
 constexpr std::uint32_t batches_at_once = 64;
+// Light paths of a photon map: so many for each sample that is made with it, within bounds.
+constexpr std::uint64_t map_paths_per_sample = 2;
+constexpr std::uint64_t least_map_paths = 1 << 16, most_map_paths = 1 << 21;
+// Samples a pixel that share a map.
+constexpr std::uint32_t most_map_samples = 4;
 // With cached light, pixels all have so many samples before any has more.
 constexpr std::uint32_t even_samples = 4;
 // Pixels darker than this share of the picture's mean are sampled as if they were as bright.
@@ -108,6 +113,8 @@ class Film {
         to.normal += from.normal;
         to.samples += from.samples;
         to.squares += from.squares;
+        to.traced_squares += from.traced_squares;
+        to.photons += from.photons;
         if (!first_pass) continue;
         to.position = from.position;
         to.depth = from.depth;
@@ -143,16 +150,12 @@ class Film {
 
   // Estimated from the spread of its samples: the variance of pixel i's mean brightness, relative
   // as in relMSE.
-  // dark: what a dark pixel's square is taken as.
-  double relative_variance(std::size_t i, double dark = 0.01) const {
+  double relative_variance(std::size_t i) const {
     const PixelSums& p = pixels_[i];
     if (p.samples < 2) return 0.0;
-    const double n = p.samples;
-    double sum = 0.0;
-    for (const Color& c : p.terms) sum += (double(c.x) + c.y + c.z) / 3.0;
-    const double mean = sum / n;
-    const double variance = std::max(0.0, double(p.squares) / n - mean * mean) / (n - 1.0);
-    return variance > 0.0 ? variance / (mean * mean + dark) : 0.0;
+    const double mean = brightness(p);
+    const double variance = variance_of(p, p.squares, mean);
+    return variance > 0.0 ? variance / (mean * mean + 0.01) : 0.0;
   }
 
   // Estimated √relMSE; −1 where a pixel has too few samples to tell.
@@ -166,34 +169,52 @@ class Film {
   }
 
   // Of one sample, √: what a pixel's number of samples should be in proportion to. Taken from the
-  // pixel and those around it, since one that has met nothing yet looks calm.
+  // eight pixels around it and not from its own samples: pixels that have met nothing bright yet
+  // would have fewer samples for it, and their means would be too dark (Kirk and Arvo 1991,
+  // "Unbiased Sampling Techniques for Image Synthesis"). What photons bring is the same for
+  // neighbours, and left out for that reason but for its mean over the tile.
   std::vector<float> spread() const {
     std::vector<float> own(pixels_.size()), result(pixels_.size());
-    // Relative to the picture's own brightness, so that twice the light is sampled alike.
-    double brightness = 0.0;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      const Color c = beauty(i);
-      brightness += (double(c.x) + c.y + c.z) / 3.0;
+    std::vector<double> photons(static_cast<std::size_t>(tile_count()));
+    double all = 0.0;
+    for (int t = 0; t < tile_count(); ++t) {
+      for_each_pixel(tile(t), [&](std::size_t i) {
+        all += brightness(pixels_[i]);
+        photons[std::size_t(t)] += photon_brightness(pixels_[i]);
+      });
+      const Tile area = tile(t);
+      photons[std::size_t(t)] /= double(area.width) * area.height;
     }
-    brightness /= static_cast<double>(own.size());
-    const double dark = dark_share * brightness * dark_share * brightness;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      own[i] = static_cast<float>(std::sqrt(relative_variance(i, dark) * pixels_[i].samples));
+    // Relative to the picture's own brightness, so that twice the light is sampled alike.
+    const double dark = dark_share * all / static_cast<double>(own.size());
+    for (int t = 0; t < tile_count(); ++t) {
+      for_each_pixel(tile(t), [&](std::size_t i) {
+        const PixelSums& p = pixels_[i];
+        if (p.samples < 2) return;
+        const double traced = brightness(p) - photon_brightness(p);
+        const double seen = traced + photons[std::size_t(t)];
+        const double variance = p.samples * variance_of(p, p.traced_squares, traced);
+        if (variance > 0.0) own[i] = static_cast<float>(variance / (seen * seen + dark * dark));
+      });
     }
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
         const auto at = [&](int i, int j) {
           return own[std::size_t(j) * std::size_t(width_) + std::size_t(i)];
         };
-        constexpr float neighbour_share = 0.5f;
-        float most = 0.0f;
+        // Edges that the pixel lies on go through two of the eight.
+        float most = 0.0f, sum = 0.0f;
+        int count = 0;
         for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height_ - 1); ++j) {
           for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width_ - 1); ++i) {
+            if (i == x && j == y) continue;
             most = std::max(most, at(i, j));
+            sum += at(i, j);
+            ++count;
           }
         }
-        result[std::size_t(y) * std::size_t(width_) + std::size_t(x)] =
-            std::max(at(x, y), neighbour_share * most);
+        const float around = count > 0 ? 0.5f * (most + sum / static_cast<float>(count)) : at(x, y);
+        result[std::size_t(y) * std::size_t(width_) + std::size_t(x)] = std::sqrt(around);
       }
     }
     return result;
@@ -229,6 +250,28 @@ class Film {
   }
 
  private:
+  template <typename Visit>
+  void for_each_pixel(const Tile& tile, const Visit& visit) const {
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+      for (int x = tile.x; x < tile.x + tile.width; ++x)
+        visit(std::size_t(y) * std::size_t(width_) + std::size_t(x));
+    }
+  }
+
+  // Mean of a pixel's samples, of the channels of all terms.
+  static double brightness(const PixelSums& p) {
+    double sum = 0.0;
+    for (const Color& c : p.terms) sum += (double(c.x) + c.y + c.z) / 3.0;
+    return p.samples > 0 ? sum / p.samples : 0.0;
+  }
+  static double photon_brightness(const PixelSums& p) {
+    return p.samples > 0 ? double(p.photons) / p.samples : 0.0;
+  }
+  // Of the mean of two samples or more.
+  static double variance_of(const PixelSums& p, double squares, double mean) {
+    return std::max(0.0, squares / p.samples - mean * mean) / (p.samples - 1.0);
+  }
+
   int width_, height_, columns_, rows_;
   std::vector<PixelSums> pixels_;
   struct LightSums {
@@ -287,8 +330,8 @@ class ErrorEstimate {
 class StillRender {
  public:
   // builder: null: no cache is used.
-  StillRender(const PathTracer& tracer, const LightTracer& light_tracer, CacheBuilder* builder,
-              const RenderSettings& settings, RenderStatistics& statistics,
+  StillRender(const TracedScene& scene, const PathTracer& tracer, const LightTracer& light_tracer,
+              CacheBuilder* builder, const RenderSettings& settings, RenderStatistics& statistics,
               const ProgressCallback& progress)
       : tracer_(tracer),
         light_tracer_(light_tracer),
@@ -296,7 +339,8 @@ class StillRender {
         settings_(settings),
         statistics_(statistics),
         progress_(progress),
-        film_(settings) {
+        film_(settings),
+        photons_(scene) {
     target_ = settings.samples > 0 ? static_cast<std::uint32_t>(settings.samples)
                                    : (settings.seconds > 0.0 || settings.error > 0.0
                                           ? std::uint32_t{max_picture_samples}
@@ -339,6 +383,7 @@ class StillRender {
     double cache_error =
         settings_.error > 0.0 ? cache_share * settings_.error : settings_.cache_error;
     if (by_time) cache_error = std::max(cache_error, first_timed_error);
+    map_photons(1);
     build_cache(cache_error);
     if (stop_ && !stopped_by_caller_)
       stop_ = false;  // out of time: one sample a pixel all the same
@@ -351,14 +396,15 @@ class StillRender {
         if (stop_) break;
       }
       const std::uint32_t left = done < even ? even - done : target_ - done;
+      const std::uint32_t most = light_tracer_.active() ? most_map_samples : max_pass_samples;
       const std::uint32_t pass =
-          std::min({std::max(done < even ? done : done / 2, 1u), max_pass_samples, left});
+          std::min({std::max(done < even ? done : done / 2, 1u), most, left});
+      if (done > 0) map_photons(pass);
       if (done < even) {
         render_pass(done, pass);
       } else {
         render_pass_where_needed(pass);
       }
-      if (!stop_ && light_tracer_.active()) render_light_pass(pass);
       done += pass;
       if (done <= 1) continue;
       picture_error_ = film_.relative_error();
@@ -381,6 +427,7 @@ class StillRender {
       return !stop_;
     };
     builder_->set_error(error);
+    builder_->set_photons(photons());
     builder_->build(tiles, go_on, statistics_);
     cache_use_ = builder_->use();
     statistics_.seconds_cache += seconds_since(begin);
@@ -433,9 +480,11 @@ class StillRender {
   }
 
   // A pixel's samples at most grow so many times over in a pass: its spread is an estimate.
-  static double more_samples(std::uint32_t has, double should_have) {
+  // Photons are the same for all samples of a pass: each pixel has one with every map.
+  double more_samples(std::uint32_t has, double should_have) const {
     constexpr double most_growth = 4.0;
-    return std::clamp(should_have - has, 0.0, (most_growth - 1.0) * has);
+    const double least = light_tracer_.active() ? 1.0 : 0.0;
+    return std::clamp(should_have - has, least, std::max(least, (most_growth - 1.0) * has));
   }
 
   // Powers of two, where halves can be compared.
@@ -490,39 +539,66 @@ class StillRender {
         tbb::simple_partitioner());
   }
 
-  // As many light paths as the pass had eye paths. A pass that is stopped leaves out the batches it
-  // did not begin.
+  // As many light paths as the pass had eye paths, for the picture. A pass that is stopped leaves
+  // out the batches it did not begin.
   void render_light_pass(std::uint32_t count) {
     const std::uint64_t end = film_.light_paths() + std::uint64_t(count) * film_.size();
-    std::vector<std::vector<Splat>> splats(batches_at_once);
     while (film_.light_paths() < end && !stop_) {
       const std::uint64_t begin = film_.light_paths();
       const std::uint64_t paths =
           std::min(end - begin, std::uint64_t{light_batch} * batches_at_once);
-      const auto batches = static_cast<std::uint32_t>((paths + light_batch - 1) / light_batch);
-      tbb::parallel_for(
-          tbb::blocked_range<std::uint32_t>(0, batches, 1),
-          [&](const tbb::blocked_range<std::uint32_t>& range) {
-            const FlushDenormals flush;
-            for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-              const std::uint64_t first = begin + std::uint64_t{i} * light_batch;
-              const auto size = static_cast<std::uint32_t>(
-                  std::min(std::uint64_t{light_batch}, begin + paths - first));
-              RenderStatistics counts;
-              splats[i].clear();
-              light_tracer_.trace(first, size, splats[i], counts);
-              const std::lock_guard lock(mutex_);
-              statistics_.add_counts(counts);
-            }
-          },
-          tbb::simple_partitioner());
-      for (std::uint32_t i = 0; i < batches; ++i) {
-        for (const Splat& splat : splats[i]) film_.add(splat);
-      }
+      trace_light_batches<Splat>(begin, paths, [&](const std::vector<Splat>& splats) {
+        for (const Splat& splat : splats) film_.add(splat);
+      });
       film_.add_light_paths(paths);
-      const std::lock_guard lock(mutex_);
-      note_progress(1);
     }
+  }
+
+  // Light paths for a pass of so many samples a pixel, for the caches.
+  void map_photons(std::uint32_t samples) {
+    if (!light_tracer_.active()) return;
+    const std::uint64_t wanted =
+        std::clamp(map_paths_per_sample * samples * film_.size(), least_map_paths, most_map_paths);
+    std::vector<Photon> photons;
+    std::uint64_t traced = 0;
+    while (traced < wanted && !stop_) {
+      const std::uint64_t paths =
+          std::min(wanted - traced, std::uint64_t{light_batch} * batches_at_once);
+      trace_light_batches<Photon>(map_paths_ + traced, paths, [&](const std::vector<Photon>& some) {
+        photons.insert(photons.end(), some.begin(), some.end());
+      });
+      traced += paths;
+    }
+    map_paths_ += traced;
+    statistics_.photons += photons.size();
+    photons_.build(std::move(photons), traced, map_number_++);
+  }
+  const PhotonMap* photons() const { return light_tracer_.active() ? &photons_ : nullptr; }
+
+  // Light paths [begin, begin + count), at most batches_at_once batches. take: is called with what
+  // each batch brings, in order.
+  template <typename Item, typename Take>
+  void trace_light_batches(std::uint64_t begin, std::uint64_t count, const Take& take) {
+    const auto batches = static_cast<std::uint32_t>((count + light_batch - 1) / light_batch);
+    std::vector<std::vector<Item>> items(batches);
+    tbb::parallel_for(
+        tbb::blocked_range<std::uint32_t>(0, batches, 1),
+        [&](const tbb::blocked_range<std::uint32_t>& range) {
+          const FlushDenormals flush;
+          for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+            const std::uint64_t first = begin + std::uint64_t{i} * light_batch;
+            const auto size = static_cast<std::uint32_t>(
+                std::min(std::uint64_t{light_batch}, begin + count - first));
+            RenderStatistics counts;
+            light_tracer_.trace(first, size, items[i], counts);
+            const std::lock_guard lock(mutex_);
+            statistics_.add_counts(counts);
+          }
+        },
+        tbb::simple_partitioner());
+    for (const std::vector<Item>& batch : items) take(batch);
+    const std::lock_guard lock(mutex_);
+    note_progress(1);
   }
 
   // Called with the mutex held.
@@ -558,6 +634,9 @@ class StillRender {
   RenderStatistics& statistics_;
   const ProgressCallback& progress_;
   Film film_;
+  PhotonMap photons_;
+  std::uint64_t map_paths_ = 0;  // light paths of all maps so far
+  std::uint32_t map_number_ = 0;
   ErrorEstimate estimate_;
   std::uint32_t target_ = 0;
   Clock::time_point start_;
@@ -584,7 +663,8 @@ Framebuffer render(const Scene& scene, const Camera& camera, const RenderSetting
     const CameraView view(camera, traced, settings.width, settings.height);
     const std::vector<BoundingSphere> casters =
         caustic_casters(traced, settings.specular_roughness);
-    if (!casters.empty()) lights.leave_caustics_to_light_paths();
+    const bool photons = settings.integrator == Integrator::light_vectors;
+    if (!casters.empty()) lights.leave_caustics_to_light_paths(photons);
     const LightTracer light_tracer(traced, lights, view, settings, casters);
     const PathTracer tracer(traced, lights, view, settings);
     statistics.seconds_prepare = seconds_since(start);
@@ -593,8 +673,8 @@ Framebuffer render(const Scene& scene, const Camera& camera, const RenderSetting
     if (settings.integrator == Integrator::light_vectors) {
       builder.emplace(tracer, traced, settings, cache);
     }
-    StillRender still(tracer, light_tracer, builder ? &*builder : nullptr, settings, statistics,
-                      progress);
+    StillRender still(traced, tracer, light_tracer, builder ? &*builder : nullptr, settings,
+                      statistics, progress);
     still.run();
     statistics.records = cache.size();
     statistics.cache_bytes = cache.bytes();

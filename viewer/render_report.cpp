@@ -107,6 +107,7 @@ nlohmann::json render_json(const RenderReport& report) {
                           {{"total", s.samples},
                            {"per_pixel", samples_per_pixel(s, settings)},
                            {"light_paths", s.light_paths},
+                           {"photons", s.photons},
                            {"dropped", dropped}}},
                          {"cache",
                           {{"records", s.records},
