@@ -63,6 +63,19 @@ TEST_F(Benchmark, TellsErrorsAndKeepsItsReference) {
   EXPECT_EQ(second.err, "");
   EXPECT_EQ(written()["scenes"][0]["reference"]["kept_from_before"], true);
 }
+TEST_F(Benchmark, TellsWhatPartsAreWorth) {
+  const CommandResult result =
+      run(LUMIVEC_BENCH_VALIDITY, {"--records", "90", "--samples", "1", "--time", "0.05"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json json = written();
+  for (const char* kind : {"equal_records", "equal_time"}) {
+    ASSERT_EQ(json[kind].size(), 7u);
+    EXPECT_EQ(json[kind][0]["variant"], "all parts");
+    EXPECT_GT(json[kind][0]["records"], 0);
+    EXPECT_EQ(json[kind][1]["variant"], "no hessian");
+    EXPECT_GE(json[kind][1]["relmse"], 0.0);
+  }
+}
 TEST_F(Benchmark, RefusesWhatItCannotWrite) {
   const CommandResult result =
       run_command(LUMIVEC_BENCH_ERROR, {"--json", "no/such/folder.json"}, folder.path());
