@@ -5,13 +5,10 @@
 // place; directions are spread over the hemisphere above the wall. Look-ups are at random places of
 // the walls and in random directions, which no cache of the processor foresees, and add up the
 // light vectors that they find.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
 #include <string>
@@ -21,6 +18,7 @@
 #include "integrator/light_vector.h"
 #include "integrator/light_vector_cache.h"
 #include "integrator/sampling.h"
+#include "tools/bench_program.h"
 
 namespace lumivec {
 namespace {
@@ -174,7 +172,7 @@ int run(int argc, char** argv) {
   Options options;
   std::string json_file;
   std::vector<int> only;
-  app.add_option("--json", json_file, "write all figures to this file");
+  add_json_option(app, json_file);
   app.add_option("--case", only, "only this number of points and of directions")->expected(2);
   app.add_option("--queries", options.queries, "look-ups a case")
       ->capture_default_str()
@@ -208,20 +206,11 @@ int run(int argc, char** argv) {
   for (const auto& [name, cases] : series) {
     for (const Case& c : cases) all[name].push_back(measure(c, options));
   }
-  if (!json_file.empty()) {
-    std::ofstream out(json_file);
-    out << nlohmann::json{{"queries", options.queries},
-                          {"cone_degrees", options.cone_degrees},
-                          {"scattered", options.scattered},
-                          {"balanced", options.balance},
-                          {"series", all}}
-               .dump(2)
-        << '\n';
-    if (!out) {
-      std::fprintf(stderr, "bench_query: %s: cannot be written\n", json_file.c_str());
-      return 1;
-    }
-  }
+  write_json(json_file, {{"queries", options.queries},
+                         {"cone_degrees", options.cone_degrees},
+                         {"scattered", options.scattered},
+                         {"balanced", options.balance},
+                         {"series", all}});
   return 0;
 }
 
@@ -229,10 +218,5 @@ int run(int argc, char** argv) {
 }  // namespace lumivec
 
 int main(int argc, char** argv) {
-  try {
-    return lumivec::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "bench_query: %s\n", e.what());
-    return 1;
-  }
+  return lumivec::run_benchmark("bench_query", argc, argv, lumivec::run);
 }

@@ -5,14 +5,12 @@
 // The bare loops trace rays like the path tracer's: through the pixels, scattered by the cosine
 // over a few bounces, and toward points on the lights. Their rates are combined by the numbers of
 // each kind that the path tracer traced.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
+#include <functional>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -22,8 +20,8 @@
 #include "integrator/render.h"
 #include "integrator/sampling.h"
 #include "integrator/sobol.h"
-#include "loader/error.h"
 #include "loader/load_scene.h"
+#include "tools/bench_program.h"
 #include "tools/procedural_scenes.h"
 
 namespace lumivec {
@@ -193,7 +191,7 @@ int run(int argc, char** argv) {
   app.add_option("SCENE", files,
                  "glTF scenes; default: the shipped Cornell Box, a Sphere Flake of depth 5, a mesh "
                  "of a million triangles");
-  app.add_option("--json", json_file, "write all figures to this file");
+  add_json_option(app, json_file);
   app.add_option("--size", size, "pixels on a side")
       ->capture_default_str()
       ->check(CLI::Range(16, 4096));
@@ -240,16 +238,8 @@ int run(int argc, char** argv) {
                    {"path_over_bare", f.share},
                    {"two_threads_over_one", f.speedup}});
   }
-  if (!json_file.empty()) {
-    std::ofstream out(json_file);
-    out << nlohmann::json{{"size", size}, {"samples", samples}, {"rounds", rounds}, {"scenes", all}}
-               .dump(2)
-        << '\n';
-    if (!out) {
-      std::fprintf(stderr, "bench_rays: %s: cannot be written\n", json_file.c_str());
-      return 1;
-    }
-  }
+  write_json(json_file,
+             {{"size", size}, {"samples", samples}, {"rounds", rounds}, {"scenes", all}});
   return 0;
 }
 
@@ -257,10 +247,5 @@ int run(int argc, char** argv) {
 }  // namespace lumivec
 
 int main(int argc, char** argv) {
-  try {
-    return lumivec::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "bench_rays: %s\n", e.what());
-    return 1;
-  }
+  return lumivec::run_benchmark("bench_rays", argc, argv, lumivec::run);
 }
