@@ -3,8 +3,10 @@
 // 2.2, 2.3), the mean distance d_moy and the variation ΔE.
 //
 // ΔE is the length of the paper's gradient (eq. 2.6), which sees how the cosines of what the cells
-// hit change as the point moves, and not that other light comes into view; relative to E. It costs
-// what its paths cost: about 1 µs each in a closed room.
+// hit change as the point moves, and not that other light comes into view; relative to E. Light
+// from all around at distance r has 4 / (3 r), so that E_B is what bounds most records: whether
+// d_moy is the plain mean, as here, or the harmonic one makes no difference on the Cornell box.
+// It costs what its paths cost: about 2 µs each in a closed room.
 #pragma once
 
 #include <cstdint>

@@ -60,7 +60,7 @@ Scene glowing_sphere() {
   return scene;
 }
 
-constexpr int samples = 20'000;
+constexpr int samples = 200'000;
 constexpr double tolerance = 0.01;  // roulette and light sampling scatter paths by about their mean
 
 TEST(paper_gather, light_from_everywhere) {

@@ -61,18 +61,18 @@ void expect_indirect_light_as_by_path(bool with_metal, double mean_tolerance) {
   // Records are blotchy and too smooth in corners, by the method's nature.
   EXPECT_LT(differing_blocks(expected, found, size, 4, 0.15), 0.1);
   EXPECT_GT(picture.statistics.records, 100u);
-  EXPECT_GT(picture.statistics.cache_hits, 20 * picture.statistics.cache_misses);
+  EXPECT_GT(picture.statistics.cache_hits, picture.statistics.samples * 3 / 4);
   // What is not cached is what it was.
   expect_same_mean(term(reference, Term::direct), term(picture.frame, Term::direct));
   EXPECT_EQ(level(term(picture.frame, Term::caustic)), 0.0);
 }
 
 TEST(paper_mode, diffuse_room) {
-  expect_indirect_light_as_by_path(false, 0.03);
+  expect_indirect_light_as_by_path(false, 0.02);
 }
 
 TEST(paper_mode, block_whose_light_depends_on_the_view) {
-  expect_indirect_light_as_by_path(true, 0.03);
+  expect_indirect_light_as_by_path(true, 0.02);
 }
 
 // With mirrors and glass too, whose light is what it is without a cache.
@@ -149,7 +149,7 @@ TEST(paper_mode, a_cache_without_room_leaves_it_to_paths) {
   RenderSettings settings = paper_settings(24, 16);
   settings.cache_bytes = 1;
   const Picture picture = render_paper(room(false), settings);
-  EXPECT_EQ(picture.statistics.records, 0u);
+  EXPECT_LE(picture.statistics.records, 1u);
   const Framebuffer reference = render_clean(room(false), cornell_camera(), square(24, 256, 3));
   expect_same_mean(term(reference, Term::indirect), term(picture.frame, Term::indirect), 0.05);
 }
