@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "integrator/light_vector.h"
 #include "integrator/settings.h"
 #include "loader/scene.h"
 
@@ -50,7 +51,9 @@ struct RenderStatistics {
   std::uint64_t cache_hits = 0, cache_misses = 0;
   std::uint64_t records = 0;      // in the caches
   std::uint64_t cache_bytes = 0;  // of the caches
-  double seconds_cache = 0.0;     // making records
+  // Of records by the paper's criteria, by LightVectorForm: all but the first fell back.
+  std::array<std::uint64_t, light_vector_form_count> light_vectors{};
+  double seconds_cache = 0.0;  // making records
   std::array<std::uint64_t, term_count>
       dropped{};                 // non-finite samples left out, by the term that was not finite
   double error_estimate = -1.0;  // own estimate of √relMSE, as a fraction; < 0: none was made

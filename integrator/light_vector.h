@@ -13,9 +13,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 #include "loader/scene.h"
 
@@ -29,6 +31,8 @@ enum class LightVectorForm : std::uint8_t {
   radiance   // none: the magnitude is the reflected radiance, whatever the BSDF
 };
 constexpr int light_vector_form_count = 4;
+constexpr std::array<std::string_view, light_vector_form_count> light_vector_form_names = {
+    "exact", "weighted", "normal", "radiance"};
 
 struct LightVector {
   V3f direction{0.0f, 0.0f, 1.0f};  // unit, from the surface

@@ -266,7 +266,7 @@ class PathStream {
     const int y = tile_.y + static_cast<int>(lane.pixel) / tile_.width;
     const auto seed_low = static_cast<std::uint32_t>(t_.settings_.seed);
     const auto seed_high = static_cast<std::uint32_t>(t_.settings_.seed >> 32);
-    if (cache_.indirect) lane.splits = 1;
+    if (cache_.any()) lane.splits = 1;
     lane.seed =
         hash_combine(hash_combine(hash_combine(seed_low, seed_high), static_cast<std::uint32_t>(x)),
                      static_cast<std::uint32_t>(y));
@@ -462,17 +462,18 @@ class PathStream {
     if (lane.probe) bsdf = bsdf.with_only(kind_bit(LobeKind::specular));
     const bool passes = parameters.transmission > 0.0f;
     const V3f receiver = passes ? V3f(0.0f) : point.geometric_normal;
-    const bool may_sample_lights = bsdf.has_non_delta() && !t_.lights_.empty() && !cache_.requests;
-    if (cache_.photons && !lane.probe && !cache_.requests && bsdf.has_non_specular())
+    const bool may_sample_lights = bsdf.has_non_delta() && !t_.lights_.empty() && !cache_.asks();
+    if (cache_.photons && !lane.probe && !cache_.asks() && bsdf.has_non_specular())
       add_photons(lane, point, bsdf);
-    if (cache_.indirect && !lane.probe && bsdf.has(LobeKind::diffuse)) {
-      const bool cached = use_cache(lane, point, bsdf);
-      if (cached || cache_.requests) {
-        shade_beside_cache(lane, point, parameters, bsdf, receiver, may_sample_lights);
+    const std::uint32_t kinds = lane.probe ? 0 : cached_kinds(bsdf, parameters);
+    if (kinds != 0) {
+      const bool cached = use_cache(lane, point, parameters, bsdf);
+      if (cached || cache_.asks()) {
+        shade_beside_cache(lane, point, parameters, bsdf, kinds, receiver, may_sample_lights);
         return;
       }
     }
-    if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, false);
+    if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, 0);
     if (lane.depth == 0 && lane.splits > 1) {
       lane.throughput *= 1.0f / static_cast<float>(lane.splits);
       lane.fork.emplace(
@@ -516,14 +517,23 @@ class PathStream {
     add(patchy, light.patchy);
   }
 
-  // Adds the diffuse lobe's indirect light, where the cache has it; otherwise asks for it.
-  bool use_cache(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf) {
+  // Of the lobes that are there, those whose indirect light caches hold.
+  std::uint32_t cached_kinds(const Bsdf& bsdf, const SurfaceParameters& parameters) const {
+    if (cache_.paper) return paper_kinds(bsdf, parameters);
+    return cache_.indirect && bsdf.has(LobeKind::diffuse) ? kind_bit(LobeKind::diffuse) : 0;
+  }
+
+  // Adds those lobes' indirect light, where the cache has it; otherwise asks for it.
+  bool use_cache(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
+                 const Bsdf& bsdf) {
     CachePoint at;
     at.position = point.position;
     at.geometric_normal = point.geometric_normal;
     at.normal = point.normal;
     at.error = point.error;
     at.footprint = footprint(lane);
+    if (cache_.paper)
+      return use_paper_cache(lane, {at, -lane.direction, parameters, lane.media}, bsdf);
     CachedLight light;
     if (!cache_.indirect->look_up(at, cache_.budget, cache_.needed_weight, light,
                                   statistics_.rays_visibility)) {
@@ -537,22 +547,35 @@ class PathStream {
     return true;
   }
 
-  // Direct and caustic light of the diffuse lobe, whose indirect light is cached, and all light of
-  // the others.
+  bool use_paper_cache(Lane& lane, const PaperPoint& point, const Bsdf& bsdf) {
+    Color radiance(0.0f);
+    if (!cache_.paper->look_up(point, bsdf, radiance)) {
+      ++statistics_.cache_misses;
+      if (cache_.paper_requests) cache_.paper_requests->push_back(point);
+      return false;
+    }
+    ++statistics_.cache_hits;
+    const Term term = after_event(after_event(lane.term, LobeKind::diffuse), LobeKind::diffuse);
+    lane.add(term, lane.throughput * radiance);
+    return true;
+  }
+
+  // Direct and caustic light of the lobes of those kinds, whose indirect light is cached, and all
+  // light of the others.
   void shade_beside_cache(Lane& lane, const SurfacePoint& point,
                           const SurfaceParameters& parameters, const Bsdf& bsdf,
-                          const V3f& receiver, bool may_sample_lights) {
+                          std::uint32_t kinds, const V3f& receiver, bool may_sample_lights) {
     // Light paths do not connect to what the eye sees in mirrors.
     const bool found_by_eye =
         t_.eye_paths_find_caustics_ || (!cache_.photons && lane.term == Term::specular);
-    const bool probes = t_.lights_.leaves_caustics() && found_by_eye && !cache_.requests;
+    const bool probes = t_.lights_.leaves_caustics() && found_by_eye && !cache_.asks();
     if (probes) {
-      if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, true);
-      scatter(lane, point, parameters, bsdf, receiver, may_sample_lights, true);
+      if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, kinds);
+      scatter(lane, point, parameters, bsdf, receiver, may_sample_lights, kinds);
       return;
     }
-    const Bsdf rest = bsdf.with_only(~kind_bit(LobeKind::diffuse));
-    if (may_sample_lights) sample_light(lane, point, bsdf, rest, receiver, true);
+    const Bsdf rest = bsdf.with_only(~kinds);
+    if (may_sample_lights) sample_light(lane, point, bsdf, rest, receiver, kinds);
     scatter(lane, point, parameters, rest, receiver, may_sample_lights);
   }
 
@@ -614,10 +637,10 @@ class PathStream {
     lane.object = point.instance;
   }
 
-  // scattered: what paths go on by, of bsdf. diffuse_alone: none will go on by the diffuse lobe to
-  // where a light could be found.
+  // scattered: what paths go on by, of bsdf. alone_kinds: none will go on by lobes of those kinds
+  // to where a light could be found.
   void sample_light(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf, const Bsdf& scattered,
-                    const V3f& receiver, bool diffuse_alone) {
+                    const V3f& receiver, std::uint32_t alone_kinds) {
     const std::array<float, 4> u = lane.random(1 + 2 * static_cast<std::uint32_t>(lane.depth));
     LightSample light;
     if (!t_.lights_.sample(point.position, receiver, u[0], V2f(u[1], u[2]), light)) return;
@@ -631,12 +654,12 @@ class PathStream {
     if (bsdf.lambertian()) {  // the same as below, in a fraction of its time
       const float cosine = light.direction.dot(bsdf.normal());
       if (cosine <= 0.0f || light.direction.dot(point.geometric_normal) <= 0.0f) return;
-      const bool alone = light.delta || diffuse_alone;
+      const bool alone = light.delta || alone_kinds != 0;
       const float weight = alone ? 1.0f : power_heuristic(light.pdf, trials * cosine * inv_pi);
       lane.shadow_light[0] = arriving * bsdf.diffuse_brdf(light.direction) * (cosine * weight);
       lane.shadow_light[1] = Color(0.0f);
     } else {
-      add_scattered(lane, bsdf, scattered, light, arriving, trials, diffuse_alone);
+      add_scattered(lane, bsdf, scattered, light, arriving, trials, alone_kinds);
     }
     const std::uint32_t found =
         (is_black(lane.shadow_light[0]) ? 0u : reachable_terms(lane.shadow_term[0])) |
@@ -649,12 +672,12 @@ class PathStream {
   // What the lobes of any surface make of a light sample.
   static void add_scattered(Lane& lane, const Bsdf& bsdf, const Bsdf& scattered,
                             const LightSample& light, const Color& arriving, float trials,
-                            bool diffuse_alone) {
+                            std::uint32_t alone_kinds) {
     const BsdfValue f = bsdf.eval(light.direction);
     const BsdfValue competing = &scattered == &bsdf ? f : scattered.eval(light.direction);
     const auto weighted = [&](LobeKind kind) {
       if (light.light_traced && lane.caustic.left_to_light_paths(kind)) return Color(0.0f);
-      const bool alone = light.delta || (kind == LobeKind::diffuse && diffuse_alone);
+      const bool alone = light.delta || (alone_kinds & kind_bit(kind)) != 0;
       const float weight =
           alone ? 1.0f : power_heuristic(light.pdf, trials * competing.pdf_of(kind));
       return f.of(kind) * weight;
@@ -666,7 +689,7 @@ class PathStream {
 
   void scatter(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
                const Bsdf& bsdf, const V3f& receiver, bool lights_sampled,
-               bool diffuse_is_cached = false) {
+               std::uint32_t cached_kinds = 0) {
     lane.ended = true;
     const std::array<float, 4> u = lane.random(2 + 2 * static_cast<std::uint32_t>(lane.depth));
     BsdfSample s;
@@ -679,7 +702,7 @@ class PathStream {
     lane.term = next;
     if (lane.probe) {
       lane.probe_bent = lane.probe_bent || !straight_through;
-    } else if (diffuse_is_cached && s.kind == LobeKind::diffuse) {
+    } else if ((cached_kinds & kind_bit(s.kind)) != 0) {
       lane.probe = true;
       lane.probe_bent = false;
     }

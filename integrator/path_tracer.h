@@ -18,6 +18,7 @@
 #include "integrator/irradiance_cache.h"
 #include "integrator/lights.h"
 #include "integrator/media.h"
+#include "integrator/paper_cache.h"
 #include "integrator/photon_map.h"
 #include "integrator/pixel_filter.h"
 #include "integrator/settings.h"
@@ -71,13 +72,19 @@ struct RecordRequest {
 // indirect light is taken from it, and the path goes on by other lobes alone.
 struct CacheUse {
   const IrradianceCache* indirect = nullptr;  // null: none is used
-  float budget = 0.0f;                        // scene units² (IrradianceCache)
+  // Instead of it: light of broad lobes too, by the paper's criteria.
+  const PaperCache* paper = nullptr;
+  float budget = 0.0f;  // scene units² (IrradianceCache)
   float needed_weight = 0.0f;
   // Where to note what was not found; null: paths go on there as if there were no cache.
   std::vector<RecordRequest>* requests = nullptr;
+  std::vector<PaperPoint>* paper_requests = nullptr;
   float spread = 0.0f;  // gathering: angle between neighbouring paths, radians
   // What light paths bring, in place of what they would add to the picture; null: nothing.
   const PhotonMap* photons = nullptr;
+
+  bool any() const { return indirect || paper; }
+  bool asks() const { return requests || paper_requests; }
 };
 
 class PathTracer {

@@ -1,10 +1,10 @@
-// The cache of caustic light: photons where light from the lights lands on a non-specular lobe after
-// specular events alone, and where it lands on a broad lobe after specular and glossy ones.
+// The cache of caustic light: photons where light from the lights lands on a non-specular lobe
+// after specular events alone, and where it lands on a broad lobe after specular and glossy ones.
 //
-// Each photon is a light vector that brings a share of a light's flux; what a surface makes of those
-// around a point is a density estimate over a disc on its tangent plane. The disc grows with the
-// size of a pixel there, shrinks where photons are many, and shrinks from one map to the next, so
-// that the mean of the pictures that are made with each converges to the reference (Jensen 2001;
+// Each photon is a light vector that brings a share of a light's flux; what a surface makes of
+// those around a point is a density estimate over a disc on its tangent plane. The disc grows with
+// the size of a pixel there, shrinks where photons are many, and shrinks from one map to the next,
+// so that the mean of the pictures that are made with each converges to the reference (Jensen 2001;
 // Knaus and Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach").
 //
 // Near walls and edges the disc is only as large as the surface under it: short rays along the
@@ -24,11 +24,11 @@
 namespace lumivec {
 
 struct Photon {
-  V3f position{0.0f};   // traced space
-  V3f direction{0.0f};  // unit, to where the light comes from
-  V3f normal{0.0f};     // unit, geometric, on that side
-  Color flux{0.0f};     // lm, to be divided by the number of light paths
-  bool caustic = true;  // came over specular lobes alone; else over glossy ones too
+  V3f position{0.0f};        // traced space
+  V3f direction{0.0f};       // unit, to where the light comes from
+  V3f normal{0.0f};          // unit, geometric, on that side
+  Color flux{0.0f};          // lm, to be divided by the number of light paths
+  bool caustic = true;       // came over specular lobes alone; else over glossy ones too
   std::uint16_t events = 0;  // of scattering before
 };
 
@@ -75,8 +75,8 @@ class PhotonMap {
   const TracedScene& scene_;
   std::vector<Photon> photons_;
   PointTree tree_, few_tree_;  // of all photons, and of every few_stride-th
-  float flux_scale_ = 0.0f;  // one over the number of light paths
-  float shrink_ = 1.0f;      // of discs' areas, from the first map to this one
+  float flux_scale_ = 0.0f;    // one over the number of light paths
+  float shrink_ = 1.0f;        // of discs' areas, from the first map to this one
 };
 
 }  // namespace lumivec

@@ -17,6 +17,7 @@
 #include "integrator/cache_builder.h"
 #include "integrator/denormals.h"
 #include "integrator/light_tracer.h"
+#include "integrator/paper_builder.h"
 #include "integrator/path_tracer.h"
 #include "integrator/sampling.h"
 
@@ -59,6 +60,19 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+void check(const PaperParameters& p) {
+  if (!(p.max_variation > 0.0f) || !std::isfinite(p.max_variation))
+    throw RenderError("the paper's largest variation must be positive");
+  for (const float cosine : {p.min_normal_cosine, p.min_direction_cosine}) {
+    if (!(cosine >= -1.0f && cosine < 1.0f))
+      throw RenderError("the paper's least cosines must be at least -1 and below 1");
+  }
+  if (p.needed_records < 1 || p.samples < 1)
+    throw RenderError("the paper's records needed and samples must be at least 1");
+  if (p.seeds < 0 || p.max_records < 0)
+    throw RenderError("the paper's numbers of seeds and records must not be negative");
+}
+
 void check(const RenderSettings& s) {
   if (s.width < 1 || s.height < 1 || s.width > max_picture_side || s.height > max_picture_side) {
     throw RenderError("a picture of " + std::to_string(s.width) + "x" + std::to_string(s.height) +
@@ -80,9 +94,7 @@ void check(const RenderSettings& s) {
     throw RenderError("the maximal depth must not be negative; 0 means no limit");
   if (!(s.cache_error > 0.0) || !std::isfinite(s.cache_error))
     throw RenderError("the error of cached light must be a positive fraction");
-  if (s.integrator == Integrator::light_vectors && s.validity == Validity::paper) {
-    throw RenderError("records by the paper's criteria cannot be rendered from yet; use hessian");
-  }
+  check(s.paper);
 }
 
 // Sums over all samples so far, and the tiles that share them out.
@@ -329,13 +341,14 @@ class ErrorEstimate {
 // One render from the first pass to the last.
 class StillRender {
  public:
-  // builder: null: no cache is used.
+  // builder, paper_builder: at most one of them; both null: no cache is used.
   StillRender(const TracedScene& scene, const PathTracer& tracer, const LightTracer& light_tracer,
-              CacheBuilder* builder, const RenderSettings& settings, RenderStatistics& statistics,
-              const ProgressCallback& progress)
+              CacheBuilder* builder, PaperBuilder* paper_builder, const RenderSettings& settings,
+              RenderStatistics& statistics, const ProgressCallback& progress)
       : tracer_(tracer),
         light_tracer_(light_tracer),
         builder_(builder),
+        paper_builder_(paper_builder),
         settings_(settings),
         statistics_(statistics),
         progress_(progress),
@@ -350,7 +363,7 @@ class StillRender {
   void run() {
     start_ = Clock::now();
     std::uint32_t done = 0;
-    if (builder_) {
+    if (cached()) {
       run_cached();
       done = target_;
     }
@@ -367,7 +380,7 @@ class StillRender {
     }
     const double mean_samples =
         static_cast<double>(statistics_.samples) / static_cast<double>(film_.size());
-    statistics_.error_estimate = builder_ ? picture_error_ : estimate_.error_at(mean_samples);
+    statistics_.error_estimate = cached() ? picture_error_ : estimate_.error_at(mean_samples);
     statistics_.seconds_sample = seconds_since(start_);
     statistics_.stopped_early = stopped_by_caller_;
   }
@@ -390,7 +403,8 @@ class StillRender {
     std::uint32_t done = 0;
     const std::uint32_t even = std::min(target_, even_samples);
     while (done < target_ && !stop_) {
-      if (by_time && done >= even && statistics_.seconds_cache < 0.5 * seconds_since(start_)) {
+      if (by_time && builder_ && done >= even &&
+          statistics_.seconds_cache < 0.5 * seconds_since(start_)) {
         cache_error *= timed_error_step;
         build_cache(cache_error);
         if (stop_) break;
@@ -415,6 +429,8 @@ class StillRender {
     }
   }
 
+  bool cached() const { return builder_ || paper_builder_; }
+
   // Records for that relative error: their reach follows from it, and how many hemispheres each is
   // the mean of.
   void build_cache(double error) {
@@ -426,10 +442,16 @@ class StillRender {
       note_progress(1);
       return !stop_;
     };
-    builder_->set_error(error);
-    builder_->set_photons(photons());
-    builder_->build(tiles, go_on, statistics_);
-    cache_use_ = builder_->use();
+    if (paper_builder_) {
+      paper_builder_->set_photons(photons());
+      paper_builder_->build(go_on, statistics_);
+      cache_use_ = paper_builder_->use();
+    } else {
+      builder_->set_error(error);
+      builder_->set_photons(photons());
+      builder_->build(tiles, go_on, statistics_);
+      cache_use_ = builder_->use();
+    }
     statistics_.seconds_cache += seconds_since(begin);
   }
 
@@ -628,6 +650,7 @@ class StillRender {
   const PathTracer& tracer_;
   const LightTracer& light_tracer_;
   CacheBuilder* const builder_;
+  PaperBuilder* const paper_builder_;
   CacheUse cache_use_;
   double picture_error_ = -1.0;
   const RenderSettings& settings_;
@@ -670,14 +693,20 @@ Framebuffer render(const Scene& scene, const Camera& camera, const RenderSetting
     statistics.seconds_prepare = seconds_since(start);
     IrradianceCache cache(traced, settings.validity_parts, settings.cache_bytes);
     std::optional<CacheBuilder> builder;
+    PaperCache paper_cache(settings.paper, settings.cache_bytes);
+    std::optional<PaperBuilder> paper_builder;
     if (settings.integrator == Integrator::light_vectors) {
-      builder.emplace(tracer, traced, settings, cache);
+      if (settings.validity == Validity::paper) {
+        paper_builder.emplace(tracer, traced, settings, paper_cache);
+      } else {
+        builder.emplace(tracer, traced, settings, cache);
+      }
     }
-    StillRender still(traced, tracer, light_tracer, builder ? &*builder : nullptr, settings,
-                      statistics, progress);
+    StillRender still(traced, tracer, light_tracer, builder ? &*builder : nullptr,
+                      paper_builder ? &*paper_builder : nullptr, settings, statistics, progress);
     still.run();
-    statistics.records = cache.size();
-    statistics.cache_bytes = cache.bytes();
+    statistics.records = cache.size() + paper_cache.size();
+    statistics.cache_bytes = cache.bytes() + paper_cache.bytes();
     result = still.film().resolve(traced.origin());
   });
   return result;

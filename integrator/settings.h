@@ -28,8 +28,9 @@ struct PaperParameters {
   float min_normal_cosine = 0.9f;      // S_courb, [-1, 1): of the normals at both points
   float min_direction_cosine = 0.95f;  // S_dir, [-1, 1): of both view directions
   int needed_records = 3;              // valid records that an interpolation needs, ≥ 1
-  int seeds = 1000;   // pixels, at random, where records are made first (section 2.4)
-  int samples = 512;  // rays of a record's hemisphere (eq. 2.5)
+  int seeds = 1000;     // pixels, at random, where records are made first (section 2.4)
+  int samples = 512;    // rays of a record's hemisphere at most, ≥ 1 (eq. 2.5)
+  int max_records = 0;  // no more are made, to compare at equal numbers; 0: no limit
 };
 
 // Parts of the hessian validity that can be left out, so that their worth can be measured.
@@ -50,7 +51,7 @@ constexpr int max_picture_samples = 1 << 22;  // a pixel
 
 struct RenderSettings {
   Integrator integrator = Integrator::path;
-  Validity validity = Validity::hessian;  // light_vectors only; render() knows no other yet
+  Validity validity = Validity::hessian;  // light_vectors only
   PaperParameters paper;
   ValidityParts validity_parts;
   // Relative error of cached light that is aimed at where `error` is 0: radii and sample counts of

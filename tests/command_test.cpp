@@ -102,6 +102,7 @@ TEST_F(Command, ExplainsACommand) {
                              "--scene",
                              "--filter",
                              "--integrator",
+                             "--validity",
                              "--spp",
                              "--time",
                              "--error",
@@ -177,6 +178,12 @@ TEST_F(Command, RefusesBadValues) {
   expect({"--filter", "gausian"},
          "--filter: there is no filter 'gausian'; did you mean 'gaussian'?");
   expect({"--integrator", "paht"}, "--integrator: there is no 'paht'; did you mean 'path'?");
+  expect({"--integrator", "light-vectors", "--validity", "papr"},
+         "--validity: there is no 'papr'; did you mean 'paper'?");
+  expect({"--validity", "paper"},
+         "--validity: path keeps no records; add --integrator light-vectors");
+  expect({"--paper-needed", "0"},
+         "--paper-needed: 0 is out of range; give a number from 1 to 1073741824");
   expect({"--exposure", "bright"}, "--exposure: 'bright' is not a number");
   expect({"--png-bits", "12", "-o", "a.png"}, "--png-bits: there is no '12'; known are 8, 16");
 }

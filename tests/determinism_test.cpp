@@ -212,10 +212,6 @@ TEST(limits, contradictions_are_refused) {
   };
   refuses([](RenderSettings& s) { s.width = 0; });
   refuses([](RenderSettings& s) { s.cache_error = 0.0; });
-  refuses([](RenderSettings& s) {
-    s.integrator = Integrator::light_vectors;
-    s.validity = Validity::paper;
-  });
   refuses([](RenderSettings& s) { s.height = -3; });
   refuses([](RenderSettings& s) { s.width = 65537; });
   refuses([](RenderSettings& s) { s.samples = -1; });

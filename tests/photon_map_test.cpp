@@ -59,8 +59,8 @@ std::array<Mean, term_count> mean_terms(const Scene& scene, const Camera& camera
   }
   return result;
 }
-Mean mean_of_term(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                  Term of, const Chosen& chosen = {}) {
+Mean mean_of_term(const Scene& scene, const Camera& camera, const RenderSettings& settings, Term of,
+                  const Chosen& chosen = {}) {
   return mean_terms(scene, camera, settings, 6, chosen)[static_cast<std::size_t>(of)];
 }
 
@@ -82,15 +82,14 @@ TEST(photon_map, point_and_ball_lights_on_a_small_floor) {
       scene.lights = {point_light(7.0f, at)};
     } else {
       add_sphere(scene, static_cast<float>(radius),
-                 emitter(Color(static_cast<float>(7.0 / (pi * radius * radius)))),
-                 translation(at));
+                 emitter(Color(static_cast<float>(7.0 / (pi * radius * radius)))), translation(at));
     }
     add_mesh(scene, box({-0.5f, 0.5f, -0.5f}, {0.5f, 0.8f, 0.5f}), glass(1.0f));
     // A solid body: its sides are where the floor ends.
     add_mesh(scene, box({-0.11f, -0.2f, -0.11f}, {0.11f, 0.0f, 0.11f}), diffuse(Color(albedo)));
     const Camera camera = orthographic_camera({0, 0.01, 0}, {0, 0, 0}, 0.1f);
     expect_brightness(mean_of_term(scene, camera, by_light_vectors(16, 8), Term::caustic), expected,
-                0.02);
+                      0.02);
   }
 }
 
@@ -105,11 +104,11 @@ TEST(photon_map, walls_leave_no_dark_rim) {
   const RenderSettings settings = by_light_vectors(64, 8);
   const Framebuffer where = render_clean(scene, camera, square(64, 1));
   for (const auto& [from, to] : {std::pair(0.013f, 0.04f), std::pair(0.2f, 0.6f)}) {
-    const Mean mean =
-        mean_of_term(scene, camera, settings, Term::caustic, [&, from = from, to = to](int x, int y) {
-          const float at = where.position[std::size_t(y * 64 + x)].x;
-          return at > from && at < to;
-        });
+    const Mean mean = mean_of_term(scene, camera, settings, Term::caustic,
+                                   [&, from = from, to = to](int x, int y) {
+                                     const float at = where.position[std::size_t(y * 64 + x)].x;
+                                     return at > from && at < to;
+                                   });
     expect_brightness(mean, albedo / pi * 700.0 / 400.0, from < 0.1f ? 0.05 : 0.01);
   }
 }
@@ -127,7 +126,7 @@ TEST(photon_map, caustic_of_a_point_light_seen_through_glass) {
   const double expected =
       albedo / pi * 7.0 * cosine / at.length2() * std::pow(0.5, 1.0 / cosine) * 0.5;
   expect_brightness(mean_of_term(scene, camera, by_light_vectors(16, 8), Term::specular), expected,
-              0.02);
+                    0.02);
 }
 
 // Every path is counted once, whatever specular and glossy events it is made of.
@@ -150,9 +149,9 @@ TEST(photon_map, every_term_agrees_with_paths) {
   }
 }
 
-// Discs shrink from map to map: the picture nears the reference, at the sharp edge of the light that
-// a mirror throws, where the squared error goes with the radius: with the fourth root of the number
-// of maps, of which eight times as many samples have four to seven times as many.
+// Discs shrink from map to map: the picture nears the reference, at the sharp edge of the light
+// that a mirror throws, where the squared error goes with the radius: with the fourth root of the
+// number of maps, of which eight times as many samples have four to seven times as many.
 TEST(photon_map, error_falls_as_maps_are_added) {
   Scene scene;
   scene.lights = {point_light(7.0f, {0.5, 1.0, 0.0})};

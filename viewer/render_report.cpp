@@ -26,6 +26,16 @@ std::string dropped_text(const RenderStatistics& statistics) {
   return text;
 }
 
+nlohmann::json paper_json(const PaperParameters& paper) {
+  return {{"max_variation", paper.max_variation},
+          {"min_normal_cosine", paper.min_normal_cosine},
+          {"min_direction_cosine", paper.min_direction_cosine},
+          {"needed_records", paper.needed_records},
+          {"seeds", paper.seeds},
+          {"samples", paper.samples},
+          {"max_records", paper.max_records}};
+}
+
 }  // namespace
 
 std::uint64_t ray_count(const RenderStatistics& statistics) {
@@ -66,6 +76,10 @@ nlohmann::json render_json(const RenderReport& report) {
   for (std::size_t t = 0; t < term_names.size(); ++t) {
     dropped[std::string(term_names[t])] = s.dropped[t];
   }
+  nlohmann::json light_vectors;
+  for (std::size_t f = 0; f < light_vector_form_names.size(); ++f) {
+    light_vectors[std::string(light_vector_form_names[f])] = s.light_vectors[f];
+  }
   std::vector<std::string> terms;
   std::vector<std::string> outputs;
   for (std::size_t t = 0; t < term_names.size(); ++t) {
@@ -84,6 +98,8 @@ nlohmann::json render_json(const RenderReport& report) {
                            {"height", settings.height},
                            {"filter", filter_name(settings.filter)},
                            {"integrator", integrator_names[std::size_t(settings.integrator)]},
+                           {"validity", validity_names[std::size_t(settings.validity)]},
+                           {"paper", paper_json(settings.paper)},
                            {"samples", settings.samples},
                            {"seconds", settings.seconds},
                            {"error", settings.error},
@@ -116,6 +132,7 @@ nlohmann::json render_json(const RenderReport& report) {
                            {"hits", s.cache_hits},
                            {"misses", s.cache_misses},
                            {"visibility_rays", s.rays_visibility},
+                           {"light_vectors", light_vectors},
                            {"seconds", s.seconds_cache}}},
                          {"error_estimate", nullptr},
                          {"interrupted", report.interrupted},

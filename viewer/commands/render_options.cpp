@@ -80,6 +80,14 @@ void add_light_options(CLI::App& app, RenderOptions& options) {
         options.settings.integrator = word == "path" ? Integrator::path : Integrator::light_vectors;
       })
       ->group(group);
+  add_value_option(app, "--validity", "NAME",
+                   "When light-vectors reuses a record: hessian (by derivatives of the light) or "
+                   "paper (by the criteria of 2003, to compare) [hessian]",
+                   [&settings](const std::string& text) {
+                     const std::string word = parse_word("--validity", text, {"hessian", "paper"});
+                     settings.validity = word == "paper" ? Validity::paper : Validity::hessian;
+                   })
+      ->group(group);
   add_value_option(
       app, "--terms", "LIST",
       "Parts of the light, of emitted,specular,direct,indirect,caustic [all]",
@@ -117,6 +125,32 @@ void add_light_options(CLI::App& app, RenderOptions& options) {
                          parse_number("--environment-rotation", text, -most, most);
                    })
       ->group(group);
+}
+
+// The method of 2003 (paper_validity.h), for comparisons: not in --help.
+void add_paper_options(CLI::App& app, PaperParameters& paper) {
+  const std::string hidden;
+  add_value_option(app, "--paper-variation", "E", "", [&paper](const std::string& text) {
+    constexpr double most = 1e6;
+    paper.max_variation = float(parse_number_above("--paper-variation", text, 0.0, most));
+  })->group(hidden);
+  constexpr double most_cosine = 0.9999;  // at 1 no two places agree
+  add_value_option(app, "--paper-curvature", "COSINE", "", [&paper](const std::string& text) {
+    paper.min_normal_cosine = float(parse_number("--paper-curvature", text, -1.0, most_cosine));
+  })->group(hidden);
+  add_value_option(app, "--paper-direction", "COSINE", "", [&paper](const std::string& text) {
+    paper.min_direction_cosine = float(parse_number("--paper-direction", text, -1.0, most_cosine));
+  })->group(hidden);
+  const auto number = [&](const char* name, int least, int& value) {
+    add_value_option(app, name, "N", "", [name, least, &value](const std::string& text) {
+      constexpr int most = 1 << 30;
+      value = int(parse_whole(name, text, std::uint64_t(least), most));
+    })->group(hidden);
+  };
+  number("--paper-needed", 1, paper.needed_records);
+  number("--paper-seeds", 0, paper.seeds);
+  number("--paper-samples", 1, paper.samples);
+  number("--paper-max-records", 0, paper.max_records);
 }
 
 // For developers: not in --help.
@@ -174,6 +208,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   add_light_options(app, options);
   add_sampling_options(app, options.settings);
   add_cache_options(app, options.settings);
+  add_paper_options(app, options.settings.paper);
   add_display_options(app, options.automatic_exposure, options.exposure, options.display);
 }
 
@@ -186,6 +221,9 @@ void check_render_options(const CLI::App& app, const RenderOptions& options) {
   }
   if (app.count("--half") && app.count("--float")) {
     throw UsageError("--half, --float: contradict each other; give one of them");
+  }
+  if (app.count("--validity") && options.settings.integrator != Integrator::light_vectors) {
+    throw UsageError("--validity: path keeps no records; add --integrator light-vectors");
   }
   for (const char* option : {"--environment-strength", "--environment-rotation"}) {
     if (app.count(option) && options.environment.empty()) {
