@@ -52,7 +52,10 @@ LightTracer::LightTracer(const TracedScene& scene, const Lights& lights, const C
       settings_(settings),
       casters_(casters),
       filter_(settings.filter) {
-  if (casters.empty() || (settings.terms & reachable_terms(Term::caustic)) == 0) return;
+  // Photons are also found by what the eye sees in mirrors and through glass.
+  std::uint32_t brings = reachable_terms(Term::caustic);
+  if (settings.integrator == Integrator::light_vectors) brings |= term_bit(Term::specular);
+  if (casters.empty() || (settings.terms & brings) == 0) return;
   for (std::size_t i = 0; i < lights.emitters().size(); ++i) {
     const Emitter& e = lights.emitters()[i];
     if (!e.light_traced) continue;

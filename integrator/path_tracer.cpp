@@ -124,8 +124,7 @@ struct Lane {
   bool probe = false;  // left a diffuse lobe whose other light is cached: brings caustics alone
   bool probe_bent = false;  // since then an S event other than straight through a thin wall
   float length = 0.0f;      // of the path from the eye, scene units
-  std::optional<Fork> fork;
-  int depth = 0;  // scattering events so far
+  int depth = 0;            // scattering events so far
 
   V3f origin{0.0f}, direction{0.0f};
   float near = 0.0f, far = std::numeric_limits<float>::infinity();
@@ -220,7 +219,7 @@ class PathStream {
       }
       trace_shadows();
       for (Lane& lane : lanes_) {
-        while (lane.active && lane.ended && lane.fork) next_continuation(lane);
+        while (lane.active && lane.ended && fork_of(lane)) next_continuation(lane);
         if (lane.active && lane.ended) results_ ? deliver(lane) : deposit(lane);
       }
     }
@@ -476,7 +475,7 @@ class PathStream {
     if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, 0);
     if (lane.depth == 0 && lane.splits > 1) {
       lane.throughput *= 1.0f / static_cast<float>(lane.splits);
-      lane.fork.emplace(
+      fork_of(lane).emplace(
           Fork{point, parameters, bsdf, receiver, may_sample_lights, lane.throughput, lane.media});
     }
     scatter(lane, point, parameters, bsdf, receiver, may_sample_lights);
@@ -579,13 +578,17 @@ class PathStream {
     scatter(lane, point, parameters, rest, receiver, may_sample_lights);
   }
 
+  std::optional<Fork>& fork_of(const Lane& lane) {
+    return forks_[static_cast<std::size_t>(&lane - lanes_)];
+  }
+
   // Sends the path off from its first vertex once more, or forgets the vertex after the last time.
   void next_continuation(Lane& lane) {
     if (++lane.continuation == lane.splits) {
-      lane.fork.reset();
+      fork_of(lane).reset();
       return;
     }
-    const Fork& fork = *lane.fork;
+    const Fork& fork = *fork_of(lane);
     lane.depth = 0;
     lane.term = Term::emitted;
     lane.caustic = CausticState();
@@ -791,6 +794,7 @@ class PathStream {
   Color transmittance_[lane_count];
   std::uint8_t passed_thin_[lane_count] = {};
   Lane lanes_[lane_count];
+  std::optional<Fork> forks_[lane_count];  // apart: few of the lanes' bytes are needed at a time
 };
 
 PathTracer::PathTracer(const TracedScene& scene, const Lights& lights, const CameraView& camera,

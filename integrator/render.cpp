@@ -39,7 +39,7 @@ constexpr double estimate_margin = 0.9;
 constexpr std::uint32_t light_batch = 4096;
 constexpr std::uint32_t batches_at_once = 64;
 // Light paths of a photon map: so many for each sample that is made with it, within bounds.
-constexpr std::uint64_t map_paths_per_sample = 2;
+constexpr std::uint64_t map_paths_per_sample = 1;
 constexpr std::uint64_t least_map_paths = 1 << 16, most_map_paths = 1 << 21;
 // Samples a pixel that share a map.
 constexpr std::uint32_t most_map_samples = 4;

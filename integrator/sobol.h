@@ -14,8 +14,9 @@ namespace lumivec {
 // Four 32-bit lanes, one per dimension.
 using Lanes = std::uint32_t __attribute__((vector_size(16)));
 
-// A well-mixed 32-bit hash (Wellons' lowbias32), for seeds.
-constexpr std::uint32_t mix_bits(std::uint32_t x) {
+// A well-mixed 32-bit hash (Wellons' lowbias32), for seeds; of one number or of four.
+template <typename T>
+constexpr T mix_bits(T x) {
   x ^= x >> 16;
   x *= 0x21f0aaadu;
   x ^= x >> 15;
@@ -116,8 +117,8 @@ inline std::array<float, 4> sobol_point(std::uint32_t index, std::uint32_t seed)
     const std::size_t value = (shuffled >> (4 * group)) & 15u;
     x ^= *reinterpret_cast<const Lanes*>(detail::sobol_table.groups[group][value].data());
   }
-  const Lanes seeds = {mix_bits(seed ^ 0x68bc21ebu), mix_bits(seed ^ 0x02e5be93u),
-                       mix_bits(seed ^ 0x967a889bu), mix_bits(seed ^ 0x368cc8b7u)};
+  const Lanes seeds = mix_bits(Lanes{seed, seed, seed, seed} ^
+                               Lanes{0x68bc21ebu, 0x02e5be93u, 0x967a889bu, 0x368cc8b7u});
   x = detail::reverse_bits(detail::laine_karras(x, seeds));
   // The upper 24 bits fill a float's mantissa exactly, so that the result stays below 1.
   const Lanes upper = x >> 8;
