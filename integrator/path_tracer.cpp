@@ -28,6 +28,9 @@ constexpr std::uint32_t first_continued_block = 2;
 // Two events of scattering are always traced; then a path survives with the largest channel of its
 // throughput.
 constexpr int first_roulette_depth = 2;
+// Light samples of a path that ends where all but direct light is cached. On the Cornell box four
+// cost a third more than one.
+constexpr std::uint32_t last_light_samples = 4;
 // A pixel's size grows so many times over where a path that has been scattered lands.
 constexpr float scattered_footprint = 4.0f;
 // Discs of photons that the eye sees have a radius of so many pixels, others of one footprint;
@@ -112,6 +115,13 @@ struct Fork {
   MediumStack media;
 };
 
+// A vertex where a path ends but for further light samples.
+struct Stop {
+  SurfacePoint point;
+  Bsdf bsdf;
+  V3f receiver;
+};
+
 struct Lane {
   bool active = false;
   bool camera_ray = false;
@@ -140,6 +150,7 @@ struct Lane {
   V3f vertex{0.0f}, vertex_normal{0.0f};
   float scatter_pdf = 0.0f;
 
+  std::uint32_t light_samples = 1, light_sample = 0;  // of the vertex, and which of them is next
   bool shadow = false;
   V3f shadow_origin{0.0f}, shadow_target{0.0f};
   // If nothing is in between: of non-specular and of specular lobes.
@@ -159,10 +170,12 @@ struct Lane {
 
   // Four numbers for a use that block tells apart. Continuations have a sequence of their own, of
   // which each takes a point, so that those of one pixel are spread evenly over all of its samples.
-  std::array<float, 4> random(std::uint32_t block) const {
+  // So do further samples of a use.
+  std::array<float, 4> random(std::uint32_t block, std::uint32_t uses = 1,
+                              std::uint32_t use = 0) const {
     const std::uint32_t index =
         block < first_continued_block ? sample : sample * splits + continuation;
-    return sobol_point(index, hash_combine(seed, block));
+    return sobol_point(index * uses + use, hash_combine(seed, block));
   }
 };
 
@@ -218,6 +231,7 @@ class PathStream {
         if (lanes_[i].active) shade(i);
       }
       trace_shadows();
+      trace_further_shadows();
       for (Lane& lane : lanes_) {
         while (lane.active && lane.ended && fork_of(lane)) next_continuation(lane);
         if (lane.active && lane.ended) results_ ? deliver(lane) : deposit(lane);
@@ -410,6 +424,25 @@ class PathStream {
     }
   }
 
+  // The other light samples of paths that end where all but direct light is cached.
+  void trace_further_shadows() {
+    bool any = false;
+    for (const std::optional<Stop>& stop : stops_) any = any || stop.has_value();
+    for (std::uint32_t k = 1; any && k < last_light_samples; ++k) {
+      for (Lane& lane : lanes_) {
+        const std::optional<Stop>& stop = stop_of(lane);
+        if (!stop) continue;
+        lane.light_sample = k;
+        sample_light(lane, stop->point, stop->bsdf, stop->bsdf, stop->receiver,
+                     kind_bit(LobeKind::diffuse));
+      }
+      trace_shadows();
+    }
+    if (any) {
+      for (std::optional<Stop>& stop : stops_) stop.reset();
+    }
+  }
+
   // A new seed for every ray, so that passing a partly opaque surface once says nothing of the next
   // time.
   void seed_lanes() {
@@ -573,9 +606,22 @@ class PathStream {
       scatter(lane, point, parameters, bsdf, receiver, may_sample_lights, kinds);
       return;
     }
+    if (bsdf.lambertian() && !results_ && !lane.caustic.scattered) {
+      // The path ends here: what it cost to come here is spread over several light samples.
+      lane.ended = true;
+      if (!may_sample_lights) return;
+      lane.light_samples = last_light_samples;
+      stop_of(lane).emplace(Stop{point, bsdf, receiver});
+      sample_light(lane, point, bsdf, bsdf, receiver, kinds);
+      return;
+    }
     const Bsdf rest = bsdf.with_only(~kinds);
     if (may_sample_lights) sample_light(lane, point, bsdf, rest, receiver, kinds);
     scatter(lane, point, parameters, rest, receiver, may_sample_lights);
+  }
+
+  std::optional<Stop>& stop_of(const Lane& lane) {
+    return stops_[static_cast<std::size_t>(&lane - lanes_)];
   }
 
   std::optional<Fork>& fork_of(const Lane& lane) {
@@ -644,12 +690,14 @@ class PathStream {
   // to where a light could be found.
   void sample_light(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf, const Bsdf& scattered,
                     const V3f& receiver, std::uint32_t alone_kinds) {
-    const std::array<float, 4> u = lane.random(1 + 2 * static_cast<std::uint32_t>(lane.depth));
+    const std::array<float, 4> u = lane.random(1 + 2 * static_cast<std::uint32_t>(lane.depth),
+                                               lane.light_samples, lane.light_sample);
     LightSample light;
     if (!t_.lights_.sample(point.position, receiver, u[0], V2f(u[1], u[2]), light)) return;
     // Scattering competes with as many samples as there are continuations.
     const float trials = lane.depth == 0 ? static_cast<float>(lane.splits) : 1.0f;
-    Color arriving = lane.throughput * light.radiance * (1.0f / light.pdf);
+    Color arriving = lane.throughput * light.radiance *
+                     (1.0f / (light.pdf * static_cast<float>(lane.light_samples)));
     if (const Material* medium = lane.media.top())
       arriving *= volume_transmittance(*medium, light.distance);
     lane.shadow_term[0] = after_event(lane.term, LobeKind::diffuse);
@@ -794,7 +842,9 @@ class PathStream {
   Color transmittance_[lane_count];
   std::uint8_t passed_thin_[lane_count] = {};
   Lane lanes_[lane_count];
-  std::optional<Fork> forks_[lane_count];  // apart: few of the lanes' bytes are needed at a time
+  // Apart from the lanes: few of their bytes are needed at a time.
+  std::optional<Fork> forks_[lane_count];
+  std::optional<Stop> stops_[lane_count];
 };
 
 PathTracer::PathTracer(const TracedScene& scene, const Lights& lights, const CameraView& camera,
