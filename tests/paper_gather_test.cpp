@@ -85,6 +85,7 @@ TEST(paper_gather, distance_and_variation) {
 TEST(paper_gather, reproduces_what_is_reflected) {
   const Gathering g(glowing_sphere());
   SurfaceParameters rough_metal;
+  rough_metal.normal = rough_metal.coat_normal = V3f(0.0f, 0.0f, 1.0f);
   rough_metal.base_color = Color(0.9f, 0.6f, 0.3f);
   rough_metal.metallic = 1.0f;
   rough_metal.roughness = 0.5f;
