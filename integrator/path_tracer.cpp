@@ -113,6 +113,7 @@ struct Fork {
   bool lights_sampled;
   Color throughput;
   MediumStack media;
+  float length;  // of the path from the eye
 };
 
 // A vertex where a path ends but for further light samples.
@@ -505,12 +506,10 @@ class PathStream {
         return;
       }
     }
+    if (cache_.any()) split_beside_cache(lane, bsdf);
     if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, 0);
-    if (lane.depth == 0 && lane.splits > 1) {
-      lane.throughput *= 1.0f / static_cast<float>(lane.splits);
-      fork_of(lane).emplace(
-          Fork{point, parameters, bsdf, receiver, may_sample_lights, lane.throughput, lane.media});
-    }
+    if (lane.depth == 0 && lane.splits > 1)
+      fork(lane, point, parameters, bsdf, receiver, may_sample_lights);
     scatter(lane, point, parameters, bsdf, receiver, may_sample_lights);
   }
 
@@ -616,7 +615,10 @@ class PathStream {
       return;
     }
     const Bsdf rest = bsdf.with_only(~kinds);
+    split_beside_cache(lane, rest);
     if (may_sample_lights) sample_light(lane, point, bsdf, rest, receiver, kinds);
+    if (lane.depth == 0 && lane.splits > 1)
+      fork(lane, point, parameters, rest, receiver, may_sample_lights);
     scatter(lane, point, parameters, rest, receiver, may_sample_lights);
   }
 
@@ -626,6 +628,21 @@ class PathStream {
 
   std::optional<Fork>& fork_of(const Lane& lane) {
     return forks_[static_cast<std::size_t>(&lane - lanes_)];
+  }
+
+  // What lobes that are not cached bring is most of the noise where other light is; delta lobes
+  // have one way to go.
+  void split_beside_cache(Lane& lane, const Bsdf& traced) const {
+    if (!results_ && !cache_.asks() && lane.depth == 0 && traced.has_non_delta())
+      lane.splits = usual_splits;
+  }
+
+  // Keeps the first vertex, for as many continuations as the path has splits.
+  void fork(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
+            const Bsdf& bsdf, const V3f& receiver, bool lights_sampled) {
+    lane.throughput *= 1.0f / static_cast<float>(lane.splits);
+    fork_of(lane).emplace(Fork{point, parameters, bsdf, receiver, lights_sampled, lane.throughput,
+                               lane.media, lane.length});
   }
 
   // Sends the path off from its first vertex once more, or forgets the vertex after the last time.
@@ -638,6 +655,9 @@ class PathStream {
     lane.depth = 0;
     lane.term = Term::emitted;
     lane.caustic = CausticState();
+    lane.caustic.photons = cache_.photons != nullptr;
+    lane.probe = false;
+    lane.length = fork.length;
     lane.light_sampled = false;
     lane.radiance_scale = 1.0f;
     lane.throughput = fork.throughput;

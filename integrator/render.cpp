@@ -386,6 +386,7 @@ class StillRender {
   }
 
   const Film& film() const { return film_; }
+  std::uint64_t photon_bytes() const { return photons_.bytes(); }
 
  private:
   // The cache first, then the picture: everywhere alike to begin with, and after that where it is
@@ -583,7 +584,9 @@ class StillRender {
         std::clamp(map_paths_per_sample * samples * film_.size(), least_map_paths, most_map_paths);
     std::vector<Photon> photons;
     std::uint64_t traced = 0;
-    while (traced < wanted && !stop_) {
+    // A map that would take too much memory is made of fewer paths.
+    const std::uint64_t most_photons = settings_.cache_bytes / (4 * sizeof(Photon));
+    while (traced < wanted && photons.size() <= most_photons && !stop_) {
       const std::uint64_t paths =
           std::min(wanted - traced, std::uint64_t{light_batch} * batches_at_once);
       trace_light_batches<Photon>(map_paths_ + traced, paths, [&](const std::vector<Photon>& some) {
@@ -706,7 +709,7 @@ Framebuffer render(const Scene& scene, const Camera& camera, const RenderSetting
                       paper_builder ? &*paper_builder : nullptr, settings, statistics, progress);
     still.run();
     statistics.records = cache.size() + paper_cache.size();
-    statistics.cache_bytes = cache.bytes() + paper_cache.bytes();
+    statistics.cache_bytes = cache.bytes() + paper_cache.bytes() + still.photon_bytes();
     result = still.film().resolve(traced.origin());
   });
   return result;
