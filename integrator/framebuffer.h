@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "integrator/light_vector.h"
 #include "integrator/settings.h"
 #include "loader/scene.h"
 

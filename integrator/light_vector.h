@@ -19,20 +19,10 @@
 #include <cstdint>
 #include <string_view>
 
+#include "integrator/settings.h"
 #include "loader/scene.h"
 
 namespace lumivec {
-
-// What a light vector's direction is; all but the first are fall-backs.
-enum class LightVectorForm : std::uint8_t {
-  exact,     // that of eq. 2.2
-  weighted,  // ∫ f L cosθ ω dω: of the light that is reflected
-  normal,    // the surface's normal
-  radiance   // none: the magnitude is the reflected radiance, whatever the BSDF
-};
-constexpr int light_vector_form_count = 4;
-constexpr std::array<std::string_view, light_vector_form_count> light_vector_form_names = {
-    "exact", "weighted", "normal", "radiance"};
 
 struct LightVector {
   V3f direction{0.0f, 0.0f, 1.0f};  // unit, from the surface

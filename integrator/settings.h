@@ -22,6 +22,17 @@ constexpr std::array<std::string_view, 2> integrator_names = {"path", "light-vec
 enum class Validity : std::uint8_t { paper, hessian };
 constexpr std::array<std::string_view, 2> validity_names = {"paper", "hessian"};
 
+// What a light vector's direction is; all but the first are fall-backs.
+enum class LightVectorForm : std::uint8_t {
+  exact,     // that of eq. 2.2
+  weighted,  // ∫ f L cosθ ω dω: of the light that is reflected
+  normal,    // the surface's normal
+  radiance   // none: the magnitude is the reflected radiance, whatever the BSDF
+};
+constexpr int light_vector_form_count = 4;
+constexpr std::array<std::string_view, light_vector_form_count> light_vector_form_names = {
+    "exact", "weighted", "normal", "radiance"};
+
 // The paper's four parameters (section 4.2).
 struct PaperParameters {
   float max_variation = 0.3f;          // E_B: relative change of irradiance, > 0
