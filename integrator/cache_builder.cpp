@@ -1,14 +1,11 @@
 #include "integrator/cache_builder.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 
 #include "integrator/bsdf_color.h"
-#include "integrator/denormals.h"
+#include "integrator/parallel.h"
 #include "integrator/sampling.h"
 #include "integrator/sobol.h"
 
@@ -42,17 +39,6 @@ constexpr float gather_spread = 0.0125f;
 constexpr std::uint32_t fewest_to_end_in = 512;
 // Records that are made at a time, without knowing of each other.
 constexpr std::size_t batch_size = 64;
-
-template <typename Body>
-void for_each(std::size_t count, const Body& body) {
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        const FlushDenormals flush;
-        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-      },
-      tbb::simple_partitioner());
-}
 
 }  // namespace
 

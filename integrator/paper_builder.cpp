@@ -1,14 +1,11 @@
 #include "integrator/paper_builder.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 
-#include "integrator/denormals.h"
 #include "integrator/paper_gather.h"
+#include "integrator/parallel.h"
 #include "integrator/sampling.h"
 #include "integrator/sobol.h"
 
@@ -24,17 +21,6 @@ constexpr float photon_spread = 0.125f;
 // Apart from the random numbers of pixels and of other records.
 constexpr std::uint32_t order_stream = 0x5eed2003u;
 constexpr std::uint32_t record_stream = 0x9a9e2003u;
-
-template <typename Body>
-void for_each(std::size_t count, const Body& body) {
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        const FlushDenormals flush;
-        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-      },
-      tbb::simple_partitioner());
-}
 
 std::uint32_t seed_of(const RenderSettings& settings, std::uint32_t stream) {
   const std::uint32_t seed = hash_combine(static_cast<std::uint32_t>(settings.seed),
