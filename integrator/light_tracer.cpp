@@ -70,13 +70,10 @@ LightTracer::LightTracer(const TracedScene& scene, const Lights& lights, const C
   for (std::size_t i = 0; i < lights.directional().size(); ++i) {
     Source source;
     source.directional = static_cast<int>(i);
-    float sum = 0.0f;
-    for (const BoundingSphere& c : casters) source.aim.push_back(pi * c.radius * c.radius);
-    for (const float a : source.aim) sum += a;
-    for (float& a : source.aim) a /= sum;
-    source.probability = mean(lights.directional()[i].illuminance) * sum;
-    sources_.push_back(source);
+    add_distant_source(source, mean(lights.directional()[i].illuminance));
   }
+  if (!lights.environment().black())
+    add_distant_source(Source(), 4.0f * pi * lights.environment().mean_radiance());
   float total = 0.0f;
   for (const Source& s : sources_) total += s.probability;
   float cumulative = 0.0f;
@@ -104,6 +101,16 @@ void LightTracer::add_source(Source source, float intensity, const V3f& position
   sources_.push_back(std::move(source));
 }
 
+void LightTracer::add_distant_source(Source source, float illuminance) {
+  float sum = 0.0f;
+  for (const BoundingSphere& c : casters_) source.aim.push_back(pi * c.radius * c.radius);
+  for (const float a : source.aim) sum += a;
+  if (!(sum > 0.0f) || !(illuminance > 0.0f)) return;
+  for (float& a : source.aim) a /= sum;
+  source.probability = illuminance * sum;
+  sources_.push_back(std::move(source));
+}
+
 // A direction toward one of the casters, and the density with which any of them would have led to
 // it.
 bool LightTracer::aim(const Source& source, const V3f& origin, float u_aim, const V2f& u,
@@ -119,7 +126,7 @@ bool LightTracer::aim(const Source& source, const V3f& origin, float u_aim, cons
   V3f to_center;
   float radius, distance;
   if (cone_to(casters_[chosen], to_center, radius)) {
-    direction = sample_sphere_cone(sphere_cone(to_center, radius), to_center, radius, u, distance);
+    direction = sample_sphere_cone(sphere_cone(to_center, radius), radius, u, distance);
   } else {
     direction = uniform_direction(u);
   }
@@ -138,28 +145,28 @@ bool LightTracer::aim(const Source& source, const V3f& origin, float u_aim, cons
   return pdf > 0.0f && std::isfinite(pdf);
 }
 
-bool LightTracer::start_directional(const Source& source, float u_aim, const V2f& u,
-                                    Start& out) const {
-  const DirectionalLight& light = lights_.directional()[std::size_t(source.directional)];
+bool LightTracer::start_distant(const Source& source, const V3f& toward_light,
+                                const Color& illuminance, float u_aim, const V2f& u,
+                                Start& out) const {
   std::size_t chosen = 0;
   while (chosen + 1 < source.aim.size() && u_aim >= source.aim[chosen])
     u_aim -= source.aim[chosen++];
-  const Frame frame = make_frame(light.direction);
+  const Frame frame = make_frame(toward_light);
   const V2f disc = sample_disc(u) * (casters_[chosen].radius * caster_margin);
   const V3f through = casters_[chosen].center + frame.t * disc.x + frame.b * disc.y;
   float pdf = 0.0f;  // per unit area across the beam
   for (std::size_t i = 0; i < casters_.size(); ++i) {
     const V3f offset = through - casters_[i].center;
     const float radius = casters_[i].radius * caster_margin;
-    const float across2 = (offset - light.direction * offset.dot(light.direction)).length2();
+    const float across2 = (offset - toward_light * offset.dot(toward_light)).length2();
     if (i == chosen || across2 <= radius * radius) pdf += source.aim[i] / (pi * radius * radius);
   }
   // Start outside of everything; the scene lies within radius() of traced space's origin.
-  const float back = scene_.radius() * 1.01f - through.dot(light.direction);
-  out.origin = through + light.direction * back;
-  out.direction = -light.direction;
-  out.flux = light.illuminance * (1.0f / (pdf * source.probability));
-  return true;
+  const float back = scene_.radius() * 1.01f - through.dot(toward_light);
+  out.origin = through + toward_light * back;
+  out.direction = -toward_light;
+  out.flux = illuminance * (1.0f / (pdf * source.probability));
+  return max_component(out.flux) > 0.0f;
 }
 
 bool LightTracer::start(float u_source, const V2f& u_point, float u_aim, const V2f& u_direction,
@@ -167,7 +174,18 @@ bool LightTracer::start(float u_source, const V2f& u_point, float u_aim, const V
   const auto found = std::lower_bound(sources_.begin(), sources_.end(), u_source,
                                       [](const Source& s, float u) { return s.cumulative <= u; });
   const Source& source = found == sources_.end() ? sources_.back() : *found;
-  if (source.directional >= 0) return start_directional(source, u_aim, u_direction, out);
+  if (source.directional >= 0) {
+    const DirectionalLight& light = lights_.directional()[std::size_t(source.directional)];
+    return start_distant(source, light.direction, light.illuminance, u_aim, u_direction, out);
+  }
+  if (source.emitter < 0) {
+    const EnvironmentLight& environment = lights_.environment();
+    float pdf;
+    const V3f direction = environment.sample(u_point, pdf);
+    if (!(pdf > 0.0f) || !lights_.environment_light_traced(direction)) return false;
+    return start_distant(source, direction, environment.radiance(direction) * (1.0f / pdf), u_aim,
+                         u_direction, out);
+  }
 
   const Emitter& e = lights_.emitters()[std::size_t(source.emitter)];
   V3f normal(0.0f);

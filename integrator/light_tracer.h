@@ -60,8 +60,8 @@ class LightTracer {
 
  private:
   struct Source {
-    int emitter = -1;  // of Lights::emitters; -1: directional
-    int directional = -1;
+    int emitter = -1;      // of Lights::emitters; -1: none of them
+    int directional = -1;  // of Lights::directional; -1, like emitter: the environment
     float probability = 0.0f;
     float cumulative = 0.0f;
     std::vector<float> aim;  // probability of aiming at each caster
@@ -91,9 +91,14 @@ class LightTracer {
   };
 
   void add_source(Source source, float intensity, const V3f& position);
+  // Of a light infinitely far away. illuminance: mean of the channels, lx.
+  void add_distant_source(Source source, float illuminance);
   bool start(float u_source, const V2f& u_point, float u_aim, const V2f& u_direction,
              Start& start) const;
-  bool start_directional(const Source& source, float u_aim, const V2f& u, Start& start) const;
+  // A path from unit direction toward_light. illuminance: across the beam, over the density with
+  // which the direction was drawn.
+  bool start_distant(const Source& source, const V3f& toward_light, const Color& illuminance,
+                     float u_aim, const V2f& u, Start& start) const;
   bool aim(const Source& source, const V3f& origin, float u_aim, const V2f& u, V3f& direction,
            float& pdf) const;
   // past_broad: whether the path goes on by broad lobes.

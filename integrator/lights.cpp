@@ -25,6 +25,8 @@ constexpr float min_group_share = 0.1f;
 // have a twentieth of the squared error. Only lights that fill much of the scene, relative to its
 // radius, are left to eye paths.
 constexpr float max_light_traced_size = 0.5f;
+// Of the environment, what is this much brighter than its mean: a sun, its glare, lamps.
+constexpr float bright_density = 16.0f / (4.0f * pi);
 // Light paths keep a table for each light that they start from.
 constexpr std::size_t most_large_light_traced = 4096;
 // Shadow rays end this much before their target, relative to their length: rounding of the length
@@ -268,6 +270,11 @@ Lights::Shares Lights::shares(const V3f& p, const V3f& normal) const {
   return result;
 }
 
+// Beyond everything: the scene is radius() around traced space's origin.
+V3f Lights::far_along(const V3f& p, const V3f& direction) const {
+  return p + direction * (2.0f * (scene_.radius() + p.length()));
+}
+
 bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u,
                     LightSample& out) const {
   if (directional_.empty() && environment_.black()) {
@@ -288,15 +295,14 @@ bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u
   }
   u_light -= share.tree;
   out.distance = std::numeric_limits<float>::infinity();
-  // Beyond everything: the scene is radius() around traced space's origin.
-  const float far = 2.0f * (scene_.radius() + p.length());
   if (u_light < share.environment) {
     out.direction = environment_.sample(u, out.pdf);
-    out.target = p + out.direction * far;
+    out.target = far_along(p, out.direction);
     out.radiance = environment_.radiance(out.direction);
     out.pdf *= share.environment;
     out.delta = false;
-    out.light_traced = false;
+    out.environment = true;
+    out.light_traced = environment_light_traced(out.direction);
     return out.pdf > 0.0f;
   }
   u_light -= share.environment;
@@ -304,7 +310,7 @@ bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u
     const float probability = directional_weight(light, normal) * share.directional_scale;
     if (u_light < probability) {
       out.direction = light.direction;
-      out.target = p + light.direction * far;
+      out.target = far_along(p, light.direction);
       out.radiance = light.illuminance;
       out.pdf = probability;
       out.delta = true;
@@ -360,10 +366,10 @@ bool Lights::sample_emitter(const Emitter& e, const V3f& p, const V2f& u, LightS
         out.pdf = 1.0f / (4.0f * pi);
       } else {
         const SphereCone cone = sphere_cone(to_center, e.radius);
-        out.direction = sample_sphere_cone(cone, to_center, e.radius, u, out.distance);
+        out.direction = sample_sphere_cone(cone, e.radius, u, out.distance);
         out.pdf = cone.pdf;
       }
-      normal = (p + out.direction * out.distance - e.origin).normalized();
+      normal = (out.direction * out.distance - to_center) * (1.0f / e.radius);
       break;
     }
     case EmitterKind::rectangle: {
@@ -509,6 +515,16 @@ int Lights::emitter_of(const SurfacePoint& hit) const {
   return mesh ? triangle_emitter_[std::size_t(first) + hit.primitive] : static_cast<int>(first);
 }
 
+bool Lights::leaves_all_caustics() const {
+  return leaves_caustics_ && (environment_.black() || leaves_environment_) &&
+         std::all_of(emitters_.begin(), emitters_.end(),
+                     [](const Emitter& emitter) { return emitter.light_traced; });
+}
+
+bool Lights::environment_light_traced(const V3f& direction) const {
+  return leaves_caustics_ && (leaves_environment_ || environment_.pdf(direction) > bright_density);
+}
+
 bool Lights::light_traced(const SurfacePoint& hit) const {
   if (!leaves_caustics_) return false;
   const int index = emitter_of(hit);
@@ -517,6 +533,7 @@ bool Lights::light_traced(const SurfacePoint& hit) const {
 
 void Lights::leave_caustics_to_light_paths(bool of_large_lights) {
   leaves_caustics_ = true;
+  leaves_environment_ = of_large_lights;
   of_large_lights = of_large_lights && emitters_.size() <= most_large_light_traced;
   for (Emitter& e : emitters_) {
     if (e.kind == EmitterKind::point || e.kind == EmitterKind::spot) {

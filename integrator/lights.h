@@ -48,6 +48,7 @@ struct LightSample {
   float pdf = 0.0f;  // sr⁻¹, including the choice of the light; delta lights: the choice alone
   bool light_traced = false;  // its caustics are left to light paths
   bool delta = false;         // no scattered ray can find this light
+  bool environment = false;
 };
 
 class Lights {
@@ -69,16 +70,24 @@ class Lights {
   float pdf(const V3f& p, const V3f& normal, const SurfacePoint& hit) const;
   float pdf_environment(const V3f& p, const V3f& normal, const V3f& direction) const;
 
+  // Where shadow rays from p end that go to something infinitely far away; direction: unit.
+  V3f far_along(const V3f& p, const V3f& direction) const;
+
   const EnvironmentLight& environment() const { return environment_; }
   const std::vector<Emitter>& emitters() const { return emitters_; }
   const std::vector<DirectionalLight>& directional() const { return directional_; }
 
-  // Leaves the caustics of punctual and small lights to light paths (light_tracer.h); of large ones
-  // too, unless they are too many, if these bring photons (photon_map.h).
+  // Leaves the caustics of punctual and small lights and of the environment's brightest parts to
+  // light paths (light_tracer.h); of the whole environment too, and of large lights unless they are
+  // too many, if these bring photons (photon_map.h).
   void leave_caustics_to_light_paths(bool of_large_lights);
   bool leaves_caustics() const { return leaves_caustics_; }
+  // Whether that holds for all lights there are.
+  bool leaves_all_caustics() const;
   // Whether the emissive surface hit is one of those.
   bool light_traced(const SurfacePoint& hit) const;
+  // Whether what arrives from a unit direction of the environment is.
+  bool environment_light_traced(const V3f& direction) const;
 
  private:
   // Probabilities of drawing from the tree, the environment, and each directional light.
@@ -109,6 +118,7 @@ class Lights {
   std::vector<int> triangle_emitter_;  // emitter of each triangle of emissive meshes; -1: none
   bool has_delta_ = false;
   bool leaves_caustics_ = false;
+  bool leaves_environment_ = false;  // the whole of it
 };
 
 }  // namespace lumivec

@@ -32,6 +32,9 @@ constexpr int first_roulette_depth = 2;
 // Light samples of a path that ends where all but direct light is cached. On the Cornell box four
 // cost a third more than one.
 constexpr std::uint32_t last_light_samples = 4;
+// There, besides, so many directions by the cosine toward the environment, whose even parts light
+// sampling finds badly beside a sun.
+constexpr std::uint32_t last_sky_samples = 2;
 // A pixel's size grows so many times over where a path that has been scattered lands.
 constexpr float scattered_footprint = 4.0f;
 // Discs of photons that the eye sees have a radius of so many pixels, others of one footprint;
@@ -140,15 +143,22 @@ struct Lane {
 
   void add(Term to, const Color& light) { radiance[static_cast<std::size_t>(to)] += light; }
 
-  // Four numbers for a use that block tells apart. Continuations have a sequence of their own, of
-  // which each takes a point, so that those of one pixel are spread evenly over all of its samples.
-  // So do further samples of a use.
-  std::array<float, 4> random(std::uint32_t block, std::uint32_t uses = 1,
-                              std::uint32_t use = 0) const {
-    const std::uint32_t index =
-        block < first_continued_block ? sample : sample * splits + continuation;
-    return sobol_point(index * uses + use, hash_combine(seed, block));
+  // Continuations have a sequence of their own, of which each takes a point, so that those of one
+  // pixel are spread evenly over all of its samples. So do further samples of a use.
+  std::uint32_t index_of(std::uint32_t block, std::uint32_t uses = 1, std::uint32_t use = 0) const {
+    const bool continued = block >= first_continued_block;
+    const std::uint32_t index = sample * (continued ? splits : 1) + (continued ? continuation : 0);
+    return index * uses + use;
   }
+  // Blocks of random numbers for light sampling at the path's last vertex and for scattering there.
+  std::uint32_t light_block() const { return 1 + 2 * static_cast<std::uint32_t>(depth); }
+  std::uint32_t scatter_block() const { return light_block() + 1; }
+};
+
+// A block of random numbers of each lane.
+struct DrawnBlocks {
+  Lanes8 index, block;
+  std::array<std::array<float, 4>, lane_count> points;
 };
 
 }  // namespace
@@ -197,8 +207,11 @@ class PathStream {
         statistics_(statistics) {}
 
   void run() {
+    set_constants(rays_.ray);
+    set_constants(shadow_rays_);
     while (fill()) {
       trace();
+      draw();
       for (int i = 0; i < lane_count; ++i) {
         if (lanes_[i].active) shade(i);
       }
@@ -216,6 +229,30 @@ class PathStream {
     std::uint64_t samples = 0;
     for (const SampleRange& range : ranges) samples += range.count;
     return samples;
+  }
+
+  // The random numbers that the lanes will need at their next vertices, if nothing changes there.
+  void draw() {
+    Lanes8 seeds = {};
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      const Lane& lane = lanes_[i];
+      seeds[i] = lane.seed;
+      drawn_for_lights_.block[i] = lane.light_block();
+      drawn_for_lights_.index[i] = lane.index_of(lane.light_block());
+      drawn_to_scatter_.block[i] = lane.scatter_block();
+      drawn_to_scatter_.index[i] = lane.index_of(lane.scatter_block());
+    }
+    for (DrawnBlocks* drawn : {&drawn_for_lights_, &drawn_to_scatter_})
+      sobol_points(drawn->index, hash_combine(seeds, drawn->block), drawn->points);
+  }
+
+  // Four numbers for a use that block tells apart.
+  std::array<float, 4> random(const Lane& lane, const DrawnBlocks& drawn, std::uint32_t block,
+                              std::uint32_t uses = 1, std::uint32_t use = 0) const {
+    const auto i = static_cast<std::size_t>(&lane - lanes_);
+    const std::uint32_t index = lane.index_of(block, uses, use);
+    if (drawn.block[i] == block && drawn.index[i] == index) return drawn.points[i];
+    return sobol_point(index, hash_combine(lane.seed, block));
   }
 
   // Starts paths in idle lanes; false when none are left and none run.
@@ -255,7 +292,7 @@ class PathStream {
     lane.seed =
         hash_combine(hash_combine(hash_combine(seed_low, seed_high), static_cast<std::uint32_t>(x)),
                      static_cast<std::uint32_t>(y));
-    const std::array<float, 4> u = lane.random(0);
+    const std::array<float, 4> u = sobol_point(lane.index_of(0), hash_combine(lane.seed, 0));
     const V2f offset = t_.filter_.offset(V2f(u[0], u[1]));
     const CameraRay ray = t_.camera_.ray(static_cast<float>(x) + 0.5f + offset.x,
                                          static_cast<float>(y) + 0.5f + offset.y);
@@ -309,10 +346,16 @@ class PathStream {
     rays.dir_z[i] = 1.0f;
     rays.tnear[i] = 0.0f;
     rays.tfar[i] = -1.0f;
-    rays.time[i] = 0.0f;
-    rays.mask[i] = 0u;
-    rays.id[i] = 0;
-    rays.flags[i] = 0;
+  }
+
+  // What Embree does not change.
+  static void set_constants(RTCRay8& rays) {
+    for (int i = 0; i < lane_count; ++i) {
+      rays.time[i] = 0.0f;
+      rays.mask[i] = ~0u;
+      rays.id[i] = static_cast<unsigned>(i);
+      rays.flags[i] = 0;
+    }
   }
 
   void trace() {
@@ -333,10 +376,6 @@ class PathStream {
       ray.dir_z[i] = lane.direction.z;
       ray.tnear[i] = lane.near;
       ray.tfar[i] = lane.far;
-      ray.time[i] = 0.0f;
-      ray.mask[i] = ~0u;
-      ray.id[i] = static_cast<unsigned>(i);
-      ray.flags[i] = 0;
       rays_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rays_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
       ++(lane.camera_ray ? statistics_.rays_camera : statistics_.rays_scatter);
@@ -368,10 +407,6 @@ class PathStream {
       shadow_rays_.dir_z[i] = d.z;
       shadow_rays_.tnear[i] = 0.0f;
       shadow_rays_.tfar[i] = 1.0f;
-      shadow_rays_.time[i] = 0.0f;
-      shadow_rays_.mask[i] = ~0u;
-      shadow_rays_.id[i] = static_cast<unsigned>(i);
-      shadow_rays_.flags[i] = 0;
       transmittance_[i] = Color(1.0f);
       passed_thin_[i] = 0;
       ++statistics_.rays_shadow;
@@ -410,9 +445,37 @@ class PathStream {
       }
       trace_shadows();
     }
+    const bool sky = any && !t_.lights_.environment().black();
+    for (std::uint32_t k = 0; sky && k < last_sky_samples; ++k) {
+      for (Lane& lane : lanes_) {
+        if (stop_of(lane)) sample_sky(lane, *stop_of(lane), k);
+      }
+      trace_shadows();
+    }
     if (any) {
       for (std::optional<Stop>& stop : stops_) stop.reset();
     }
+  }
+
+  // Light of the environment by a direction that the surface would scatter from.
+  void sample_sky(Lane& lane, const Stop& stop, std::uint32_t number) {
+    const std::array<float, 4> u =
+        random(lane, drawn_to_scatter_, lane.scatter_block(), last_sky_samples, number);
+    BsdfSample s;
+    if (!stop.bsdf.sample(u[0], V2f(u[1], u[2]), s)) return;
+    const Lights& lights = t_.lights_;
+    const float by_lights = lights.pdf_environment(stop.point.position, stop.receiver, s.wi);
+    const float weight = power_heuristic(last_sky_samples * s.pdf, last_light_samples * by_lights);
+    Color light = lane.throughput * s.weight * lights.environment().radiance(s.wi) *
+                  (weight / last_sky_samples);
+    if (const Material* medium = lane.media.top())
+      light *= volume_transmittance(*medium, std::numeric_limits<float>::infinity());
+    lane.shadow_term[0] = after_event(lane.term, LobeKind::diffuse);
+    lane.shadow_light[0] = light;
+    lane.shadow_light[1] = Color(0.0f);
+    lane.shadow = !is_black(light) && (reachable_terms(lane.shadow_term[0]) & terms_) != 0;
+    lane.shadow_origin = offset_origin(stop.point, s.wi);
+    lane.shadow_target = lights.far_along(stop.point.position, s.wi);
   }
 
   // A new seed for every ray, so that passing a partly opaque surface once says nothing of the next
@@ -639,6 +702,8 @@ class PathStream {
   void add_environment(Lane& lane) {
     const EnvironmentLight& environment = t_.lights_.environment();
     if (environment.black() || (lane.probe && !lane.probe_bent)) return;
+    if (lane.caustic.left_to_light_paths() && t_.lights_.environment_light_traced(lane.direction))
+      return;
     float weight = 1.0f;
     if (lane.light_sampled) {
       weight = power_heuristic(
@@ -681,8 +746,8 @@ class PathStream {
   // to where a light could be found.
   void sample_light(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf, const Bsdf& scattered,
                     const V3f& receiver, std::uint32_t alone_kinds) {
-    const std::array<float, 4> u = lane.random(1 + 2 * static_cast<std::uint32_t>(lane.depth),
-                                               lane.light_samples, lane.light_sample);
+    const std::array<float, 4> u =
+        random(lane, drawn_for_lights_, lane.light_block(), lane.light_samples, lane.light_sample);
     LightSample light;
     if (!t_.lights_.sample(point.position, receiver, u[0], V2f(u[1], u[2]), light)) return;
     // Scattering competes with as many samples as there are continuations.
@@ -696,8 +761,13 @@ class PathStream {
     if (bsdf.lambertian()) {  // the same as below, in a fraction of its time
       const float cosine = light.direction.dot(bsdf.normal());
       if (cosine <= 0.0f || light.direction.dot(point.geometric_normal) <= 0.0f) return;
-      const bool alone = light.delta || alone_kinds != 0;
-      const float weight = alone ? 1.0f : power_heuristic(light.pdf, trials * cosine * inv_pi);
+      float competing = trials * cosine * inv_pi;
+      if (stop_of(lane) && light.environment) {
+        competing = cosine * inv_pi * last_sky_samples / last_light_samples;
+      } else if (light.delta || alone_kinds != 0) {
+        competing = 0.0f;
+      }
+      const float weight = power_heuristic(light.pdf, competing);
       lane.shadow_light[0] = arriving * bsdf.diffuse_brdf(light.direction) * (cosine * weight);
       lane.shadow_light[1] = Color(0.0f);
     } else {
@@ -733,7 +803,7 @@ class PathStream {
                const Bsdf& bsdf, const V3f& receiver, bool lights_sampled,
                std::uint32_t cached_kinds = 0) {
     lane.ended = true;
-    const std::array<float, 4> u = lane.random(2 + 2 * static_cast<std::uint32_t>(lane.depth));
+    const std::array<float, 4> u = random(lane, drawn_to_scatter_, lane.scatter_block());
     BsdfSample s;
     if (!bsdf.sample(u[0], V2f(u[1], u[2]), s)) return;
     lane.throughput *= s.weight;
@@ -827,6 +897,7 @@ class PathStream {
   std::vector<GatherResult>* results_ = nullptr;
   RenderStatistics& statistics_;
 
+  DrawnBlocks drawn_for_lights_, drawn_to_scatter_;
   RTCRayHit8 rays_;
   RTCRay8 shadow_rays_;
   std::uint32_t seeds_[lane_count] = {};
@@ -845,12 +916,7 @@ PathTracer::PathTracer(const TracedScene& scene, const Lights& lights, const Cam
       camera_(camera),
       settings_(settings),
       filter_(settings.filter) {
-  const std::vector<Emitter>& emitters = lights.emitters();
-  eye_paths_find_caustics_ =
-      lights.leaves_caustics() &&
-      (!lights.environment().black() ||
-       std::any_of(emitters.begin(), emitters.end(),
-                   [](const Emitter& emitter) { return !emitter.light_traced; }));
+  eye_paths_find_caustics_ = lights.leaves_caustics() && !lights.leaves_all_caustics();
 }
 
 void PathTracer::render_tile(const Tile& tile, std::uint32_t first_sample,

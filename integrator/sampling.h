@@ -40,13 +40,14 @@ inline V2f unit_circle(float u) {
 inline V2f sample_disc(const V2f& u) {
   const float x = 2.0f * u.x - 1.0f;
   const float y = 2.0f * u.y - 1.0f;
-  const bool wide = std::abs(x) > std::abs(y);
-  const float r = wide ? x : y;
+  // Look-ups instead of branches, of which every other one would be mispredicted.
+  const std::size_t wide = std::abs(x) > std::abs(y) ? 1 : 0;
+  const std::array<float, 2> xy = {x, y};
+  const float r = xy[1 - wide];
   if (r == 0.0f) return {0.0f, 0.0f};
-  const float angle = (wide ? y : x) / r * (pi / 4.0f);
-  const float s = sin_of_octant(angle);
-  const float c = cos_of_octant(angle);
-  return {r * (wide ? c : s), r * (wide ? s : c)};
+  const float angle = xy[wide] / r * (pi / 4.0f);
+  const std::array<float, 2> p = {sin_of_octant(angle), cos_of_octant(angle)};
+  return {r * p[wide], r * p[1 - wide]};
 }
 
 // Unit direction around +z, density cosθ/π sr⁻¹: the disc lifted to the hemisphere (Malley).

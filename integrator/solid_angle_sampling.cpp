@@ -22,27 +22,24 @@ SphereCone sphere_cone(const V3f& to_center, float radius) {
   const float distance2 = to_center.length2();
   const float sin2 = std::min(radius * radius / distance2, 1.0f);
   SphereCone cone;
-  cone.axis = to_center * (1.0f / std::sqrt(distance2));
+  cone.center_distance = std::sqrt(distance2);
+  cone.axis = to_center * (1.0f / cone.center_distance);
   // 1 - √(1 - s²) = s² / (1 + √(1 - s²)): keeps its digits for far spheres.
   cone.one_minus_cos_max = sin2 / (1.0f + std::sqrt(1.0f - sin2));
   cone.pdf = 1.0f / (2.0f * pi * cone.one_minus_cos_max);
   return cone;
 }
 
-V3f sample_sphere_cone(const SphereCone& cone, const V3f& to_center, float radius, const V2f& u,
-                       float& distance) {
+V3f sample_sphere_cone(const SphereCone& cone, float radius, const V2f& u, float& distance) {
   const float one_minus_cos = u.x * cone.one_minus_cos_max;
   const float cos_theta = 1.0f - one_minus_cos;
   const float sin2 = one_minus_cos * (2.0f - one_minus_cos);
   const float sin_theta = std::sqrt(std::max(sin2, 0.0f));
-  const float phi = 2.0f * pi * u.y;
-  const Frame frame = make_frame(cone.axis);
-  const V3f direction =
-      frame.to_world(V3f(sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta));
-  const float d = to_center.length();
+  const V2f across = unit_circle(u.y) * sin_theta;
+  const float d = cone.center_distance;
   const float half_chord2 = radius * radius - d * d * sin2;
   distance = d * cos_theta - std::sqrt(std::max(half_chord2, 0.0f));
-  return direction;
+  return make_frame(cone.axis).to_world(V3f(across.x, across.y, cos_theta));
 }
 
 float triangle_solid_angle(const std::array<V3f, 3>& corners) {

@@ -18,7 +18,8 @@ constexpr float min_solid_angle = 1e-3f;
 
 // The cone that a sphere subtends from outside.
 struct SphereCone {
-  V3f axis;                        // unit, toward the centre
+  V3f axis;  // unit, toward the centre
+  float center_distance = 0.0f;
   float one_minus_cos_max = 0.0f;  // 1 - cos of the half angle, without cancellation
   float pdf = 0.0f;                // sr⁻¹, uniform
 };
@@ -26,8 +27,7 @@ struct SphereCone {
 SphereCone sphere_cone(const V3f& to_center, float radius);
 // Unit direction in the cone from two numbers in [0, 1), and the distance to the sphere's near side
 // along it.
-V3f sample_sphere_cone(const SphereCone& cone, const V3f& to_center, float radius, const V2f& u,
-                       float& distance);
+V3f sample_sphere_cone(const SphereCone& cone, float radius, const V2f& u, float& distance);
 
 // Solid angle of a triangle, sr, ≥ 0 (Van Oosterom and Strackee 1983).
 float triangle_solid_angle(const std::array<V3f, 3>& corners);

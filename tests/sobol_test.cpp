@@ -26,6 +26,34 @@ TEST(sobol, is_a_function_of_index_and_seed) {
   EXPECT_NE(sobol_point(12345, 678), sobol_point(12346, 678));
 }
 
+TEST(sobol, eight_points_at_once_are_those_one_by_one) {
+  for (std::uint32_t k = 0; k < 256; ++k) {
+    Lanes8 index = {}, seed = {};
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      index[i] = k % 3 == 0 && i % 2 == 0 ? mix_bits(8 * k + i) : 8 * k + i;
+      seed[i] = mix_bits(k + i);
+    }
+    std::array<std::array<float, 4>, 8> points;
+    sobol_points(index, seed, points);
+    const Lanes8 hashed = hash_combine(seed, index);
+    for (std::size_t i = 0; i < 8; ++i) {
+      EXPECT_EQ(points[i], sobol_point(index[i], seed[i]));
+      EXPECT_EQ(hashed[i], hash_combine(seed[i], index[i]));
+    }
+  }
+}
+
+// The first 65,536 points and those after them are one sequence.
+TEST(sobol, points_stay_stratified_past_the_first_ones) {
+  constexpr std::uint32_t n = 0x20000;
+  for (std::size_t d = 0; d < 4; ++d) {
+    std::vector<bool> used(n);
+    for (std::uint32_t i = 0; i < n; ++i)
+      used[static_cast<std::size_t>(sobol_point(i, 99)[d] * static_cast<float>(n))] = true;
+    for (const bool u : used) ASSERT_TRUE(u) << "dimension " << d;
+  }
+}
+
 // Every power of two of the first samples puts one into each of its equal intervals, in each
 // dimension.
 TEST(sobol, every_dimension_is_stratified) {

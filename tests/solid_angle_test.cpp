@@ -208,7 +208,7 @@ void check_sphere(const V3f& center, float radius) {
   int at_the_rim = 0;
   for (std::uint32_t s = 0; s < samples; ++s) {
     float distance = 0.0f;
-    const V3f w = sample_sphere_cone(cone, center, radius, point(s, 1), distance);
+    const V3f w = sample_sphere_cone(cone, radius, point(s, 1), distance);
     ASSERT_NEAR(w.length(), 1.0f, 1e-5f);
     const V3d on = V3d(w) * double(distance);
     // Relative to what single precision can say of the sphere at this distance.
