@@ -29,12 +29,13 @@ constexpr std::uint32_t first_continued_block = 2;
 // Two events of scattering are always traced; then a path survives with the largest channel of its
 // throughput.
 constexpr int first_roulette_depth = 2;
-// Light samples of a path that ends where all but direct light is cached. On the Cornell box four
-// cost a third more than one.
-constexpr std::uint32_t last_light_samples = 4;
+// Light samples of a vertex that the eye sees and whose indirect light is cached. On the Cornell
+// box four cost a third more than one.
+constexpr std::uint32_t stop_light_samples = 4;
 // There, besides, so many directions by the cosine toward the environment, whose even parts light
-// sampling finds badly beside a sun.
-constexpr std::uint32_t last_sky_samples = 2;
+// sampling finds badly beside a sun: no path goes on by the diffuse lobe.
+constexpr std::uint32_t stop_sky_samples = 2;
+constexpr std::uint32_t sky_stream = 0x5c7eau;
 // A pixel's size grows so many times over where a path that has been scattered lands.
 constexpr float scattered_footprint = 4.0f;
 // Discs of photons that the eye sees have a radius of so many pixels, others of one footprint;
@@ -84,17 +85,24 @@ struct Fork {
   SurfaceParameters parameters;
   Bsdf bsdf;
   V3f receiver;
-  bool lights_sampled;
+  std::uint32_t light_samples;  // that were taken there
   Color throughput;
   MediumStack media;
   float length;  // of the path from the eye
 };
 
-// A vertex where a path ends but for further light samples.
+// A vertex with cached light, where the path stays for several light samples before it goes on by
+// the lobes that are left.
 struct Stop {
   SurfacePoint point;
+  SurfaceParameters parameters;
   Bsdf bsdf;
+  Bsdf rest;  // without the lobes whose light is cached
+  std::uint32_t cached_kinds;
   V3f receiver;
+
+  // Whether the cached lobe is the diffuse one alone, which is easily sampled by itself.
+  bool samples_sky() const { return cached_kinds == kind_bit(LobeKind::diffuse); }
 };
 
 struct Lane {
@@ -121,7 +129,7 @@ struct Lane {
   CausticState caustic;
 
   // How light sampling at the last vertex could have found what this ray finds.
-  bool light_sampled = false;
+  float light_trials = 0.0f;  // light samples there; 0: none
   V3f vertex{0.0f}, vertex_normal{0.0f};
   float scatter_pdf = 0.0f;
 
@@ -435,47 +443,57 @@ class PathStream {
   void trace_further_shadows() {
     bool any = false;
     for (const std::optional<Stop>& stop : stops_) any = any || stop.has_value();
-    for (std::uint32_t k = 1; any && k < last_light_samples; ++k) {
+    if (!any) return;
+    for (std::uint32_t k = 1; k < stop_light_samples; ++k) {
       for (Lane& lane : lanes_) {
         const std::optional<Stop>& stop = stop_of(lane);
         if (!stop) continue;
         lane.light_sample = k;
-        sample_light(lane, stop->point, stop->bsdf, stop->bsdf, stop->receiver,
-                     kind_bit(LobeKind::diffuse));
+        sample_light(lane, stop->point, stop->bsdf, stop->rest, stop->receiver, stop->cached_kinds);
       }
       trace_shadows();
     }
-    const bool sky = any && !t_.lights_.environment().black();
-    for (std::uint32_t k = 0; sky && k < last_sky_samples; ++k) {
+    const bool sky = !t_.lights_.environment().black();
+    for (std::uint32_t k = 0; sky && k < stop_sky_samples; ++k) {
       for (Lane& lane : lanes_) {
-        if (stop_of(lane)) sample_sky(lane, *stop_of(lane), k);
+        const std::optional<Stop>& stop = stop_of(lane);
+        if (stop && stop->samples_sky()) sample_sky(lane, *stop, k);
       }
       trace_shadows();
     }
-    if (any) {
-      for (std::optional<Stop>& stop : stops_) stop.reset();
+    for (Lane& lane : lanes_) {
+      std::optional<Stop>& stop = stop_of(lane);
+      if (!stop) continue;
+      go_on(lane, stop->point, stop->parameters, stop->rest, stop->receiver, stop_light_samples);
+      lane.light_samples = 1;
+      lane.light_sample = 0;
+      stop.reset();
     }
   }
 
-  // Light of the environment by a direction that the surface would scatter from.
+  // What the diffuse lobe makes of the environment, by a direction that the lobe would scatter to.
   void sample_sky(Lane& lane, const Stop& stop, std::uint32_t number) {
+    const std::uint32_t block = lane.scatter_block();
     const std::array<float, 4> u =
-        random(lane, drawn_to_scatter_, lane.scatter_block(), last_sky_samples, number);
-    BsdfSample s;
-    if (!stop.bsdf.sample(u[0], V2f(u[1], u[2]), s)) return;
+        sobol_point(lane.index_of(block, stop_sky_samples, number),
+                    hash_combine(hash_combine(lane.seed, block), sky_stream));
+    const V3f local = sample_cosine_hemisphere(V2f(u[0], u[1]));
+    const V3f direction = make_frame(stop.bsdf.normal()).to_world(local);
+    if (direction.dot(stop.point.geometric_normal) <= 0.0f) return;
     const Lights& lights = t_.lights_;
-    const float by_lights = lights.pdf_environment(stop.point.position, stop.receiver, s.wi);
-    const float weight = power_heuristic(last_sky_samples * s.pdf, last_light_samples * by_lights);
-    Color light = lane.throughput * s.weight * lights.environment().radiance(s.wi) *
-                  (weight / last_sky_samples);
+    const float by_lights = lights.pdf_environment(stop.point.position, stop.receiver, direction);
+    const float weight = power_heuristic(stop_sky_samples * cosine_hemisphere_pdf(local.z),
+                                         stop_light_samples * by_lights);
+    Color light = lane.throughput * stop.bsdf.diffuse_brdf(direction) *
+                  lights.environment().radiance(direction) * (pi * weight / stop_sky_samples);
     if (const Material* medium = lane.media.top())
       light *= volume_transmittance(*medium, std::numeric_limits<float>::infinity());
     lane.shadow_term[0] = after_event(lane.term, LobeKind::diffuse);
     lane.shadow_light[0] = light;
     lane.shadow_light[1] = Color(0.0f);
     lane.shadow = !is_black(light) && (reachable_terms(lane.shadow_term[0]) & terms_) != 0;
-    lane.shadow_origin = offset_origin(stop.point, s.wi);
-    lane.shadow_target = lights.far_along(stop.point.position, s.wi);
+    lane.shadow_origin = offset_origin(stop.point, direction);
+    lane.shadow_target = lights.far_along(stop.point.position, direction);
   }
 
   // A new seed for every ray, so that passing a partly opaque surface once says nothing of the next
@@ -542,9 +560,15 @@ class PathStream {
     }
     if (cache_.any()) split_beside_cache(lane, bsdf);
     if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, 0);
+    go_on(lane, point, parameters, bsdf, receiver, may_sample_lights ? 1 : 0);
+  }
+
+  // light_samples: that were taken here.
+  void go_on(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
+             const Bsdf& bsdf, const V3f& receiver, std::uint32_t light_samples) {
     if (lane.depth == 0 && lane.splits > 1)
-      fork(lane, point, parameters, bsdf, receiver, may_sample_lights);
-    scatter(lane, point, parameters, bsdf, receiver, may_sample_lights);
+      fork(lane, point, parameters, bsdf, receiver, light_samples);
+    scatter(lane, point, parameters, bsdf, receiver, light_samples);
   }
 
   // Size of a pixel, or of what a gathering path stands for, where the path has come to.
@@ -636,24 +660,20 @@ class PathStream {
     const bool probes = t_.lights_.leaves_caustics() && found_by_eye && !cache_.asks();
     if (probes) {
       if (may_sample_lights) sample_light(lane, point, bsdf, bsdf, receiver, kinds);
-      scatter(lane, point, parameters, bsdf, receiver, may_sample_lights, kinds);
-      return;
-    }
-    if (bsdf.lambertian() && !results_ && !lane.caustic.scattered) {
-      // The path ends here: what it cost to come here is spread over several light samples.
-      lane.ended = true;
-      if (!may_sample_lights) return;
-      lane.light_samples = last_light_samples;
-      stop_of(lane).emplace(Stop{point, bsdf, receiver});
-      sample_light(lane, point, bsdf, bsdf, receiver, kinds);
+      scatter(lane, point, parameters, bsdf, receiver, may_sample_lights ? 1 : 0, kinds);
       return;
     }
     const Bsdf rest = bsdf.with_only(~kinds);
     split_beside_cache(lane, rest);
+    if (may_sample_lights && !results_ && !lane.caustic.scattered) {
+      // What it cost to come here is spread over several light samples.
+      lane.light_samples = stop_light_samples;
+      stop_of(lane).emplace(Stop{point, parameters, bsdf, rest, kinds, receiver});
+      sample_light(lane, point, bsdf, rest, receiver, kinds);
+      return;
+    }
     if (may_sample_lights) sample_light(lane, point, bsdf, rest, receiver, kinds);
-    if (lane.depth == 0 && lane.splits > 1)
-      fork(lane, point, parameters, rest, receiver, may_sample_lights);
-    scatter(lane, point, parameters, rest, receiver, may_sample_lights);
+    go_on(lane, point, parameters, rest, receiver, may_sample_lights ? 1 : 0);
   }
 
   std::optional<Stop>& stop_of(const Lane& lane) {
@@ -673,9 +693,9 @@ class PathStream {
 
   // Keeps the first vertex, for as many continuations as the path has splits.
   void fork(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
-            const Bsdf& bsdf, const V3f& receiver, bool lights_sampled) {
+            const Bsdf& bsdf, const V3f& receiver, std::uint32_t light_samples) {
     lane.throughput *= 1.0f / static_cast<float>(lane.splits);
-    fork_of(lane).emplace(Fork{point, parameters, bsdf, receiver, lights_sampled, lane.throughput,
+    fork_of(lane).emplace(Fork{point, parameters, bsdf, receiver, light_samples, lane.throughput,
                                lane.media, lane.length});
   }
 
@@ -692,11 +712,11 @@ class PathStream {
     lane.caustic.photons = cache_.photons != nullptr;
     lane.probe = false;
     lane.length = fork.length;
-    lane.light_sampled = false;
+    lane.light_trials = 0.0f;
     lane.radiance_scale = 1.0f;
     lane.throughput = fork.throughput;
     lane.media = fork.media;
-    scatter(lane, fork.point, fork.parameters, fork.bsdf, fork.receiver, fork.lights_sampled);
+    scatter(lane, fork.point, fork.parameters, fork.bsdf, fork.receiver, fork.light_samples);
   }
 
   void add_environment(Lane& lane) {
@@ -705,10 +725,11 @@ class PathStream {
     if (lane.caustic.left_to_light_paths() && t_.lights_.environment_light_traced(lane.direction))
       return;
     float weight = 1.0f;
-    if (lane.light_sampled) {
-      weight = power_heuristic(
-          lane.scatter_pdf,
-          t_.lights_.pdf_environment(lane.vertex, lane.vertex_normal, lane.direction));
+    if (lane.light_trials > 0.0f) {
+      weight =
+          power_heuristic(lane.scatter_pdf,
+                          lane.light_trials * t_.lights_.pdf_environment(
+                                                  lane.vertex, lane.vertex_normal, lane.direction));
     }
     lane.add(lane.term, lane.throughput * environment.radiance(lane.direction) * weight);
   }
@@ -717,9 +738,10 @@ class PathStream {
     if (lane.probe && !lane.probe_bent) return;
     if (lane.caustic.left_to_light_paths() && t_.lights_.light_traced(point)) return;
     float weight = 1.0f;
-    if (lane.light_sampled) {
-      weight =
-          power_heuristic(lane.scatter_pdf, t_.lights_.pdf(lane.vertex, lane.vertex_normal, point));
+    if (lane.light_trials > 0.0f) {
+      weight = power_heuristic(
+          lane.scatter_pdf,
+          lane.light_trials * t_.lights_.pdf(lane.vertex, lane.vertex_normal, point));
     }
     lane.add(lane.term, lane.throughput * emission * weight);
   }
@@ -750,8 +772,12 @@ class PathStream {
         random(lane, drawn_for_lights_, lane.light_block(), lane.light_samples, lane.light_sample);
     LightSample light;
     if (!t_.lights_.sample(point.position, receiver, u[0], V2f(u[1], u[2]), light)) return;
-    // Scattering competes with as many samples as there are continuations.
-    const float trials = lane.depth == 0 ? static_cast<float>(lane.splits) : 1.0f;
+    // Scattering competes with as many samples as there are continuations, for each of these.
+    const float trials = (lane.depth == 0 ? static_cast<float>(lane.splits) : 1.0f) /
+                         static_cast<float>(lane.light_samples);
+    // The diffuse lobe alone, where it is cached, with those of the environment.
+    const bool sky = light.environment && stop_of(lane) && stop_of(lane)->samples_sky();
+    const float sky_trials = sky ? float(stop_sky_samples) / float(stop_light_samples) : 0.0f;
     Color arriving = lane.throughput * light.radiance *
                      (1.0f / (light.pdf * static_cast<float>(lane.light_samples)));
     if (const Material* medium = lane.media.top())
@@ -761,17 +787,13 @@ class PathStream {
     if (bsdf.lambertian()) {  // the same as below, in a fraction of its time
       const float cosine = light.direction.dot(bsdf.normal());
       if (cosine <= 0.0f || light.direction.dot(point.geometric_normal) <= 0.0f) return;
-      float competing = trials * cosine * inv_pi;
-      if (stop_of(lane) && light.environment) {
-        competing = cosine * inv_pi * last_sky_samples / last_light_samples;
-      } else if (light.delta || alone_kinds != 0) {
-        competing = 0.0f;
-      }
-      const float weight = power_heuristic(light.pdf, competing);
+      const bool alone = light.delta || alone_kinds != 0;
+      const float weight =
+          power_heuristic(light.pdf, (alone ? sky_trials : trials) * cosine * inv_pi);
       lane.shadow_light[0] = arriving * bsdf.diffuse_brdf(light.direction) * (cosine * weight);
       lane.shadow_light[1] = Color(0.0f);
     } else {
-      add_scattered(lane, bsdf, scattered, light, arriving, trials, alone_kinds);
+      add_scattered(lane, bsdf, scattered, light, arriving, trials, sky_trials, alone_kinds);
     }
     const std::uint32_t found =
         (is_black(lane.shadow_light[0]) ? 0u : reachable_terms(lane.shadow_term[0])) |
@@ -784,15 +806,16 @@ class PathStream {
   // What the lobes of any surface make of a light sample.
   static void add_scattered(Lane& lane, const Bsdf& bsdf, const Bsdf& scattered,
                             const LightSample& light, const Color& arriving, float trials,
-                            std::uint32_t alone_kinds) {
+                            float sky_trials, std::uint32_t alone_kinds) {
     const BsdfValue f = bsdf.eval(light.direction);
     const BsdfValue competing = &scattered == &bsdf ? f : scattered.eval(light.direction);
     const auto weighted = [&](LobeKind kind) {
       if (light.light_traced && lane.caustic.left_to_light_paths(kind)) return Color(0.0f);
       const bool alone = light.delta || (alone_kinds & kind_bit(kind)) != 0;
-      const float weight =
-          alone ? 1.0f : power_heuristic(light.pdf, trials * competing.pdf_of(kind));
-      return f.of(kind) * weight;
+      const float other =
+          alone ? sky_trials * cosine_hemisphere_pdf(bsdf.normal().dot(light.direction))
+                : trials * competing.pdf_of(kind);
+      return f.of(kind) * power_heuristic(light.pdf, other);
     };
     lane.shadow_light[0] = arriving * (weighted(LobeKind::diffuse) + weighted(LobeKind::broad) +
                                        weighted(LobeKind::glossy));
@@ -800,7 +823,7 @@ class PathStream {
   }
 
   void scatter(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
-               const Bsdf& bsdf, const V3f& receiver, bool lights_sampled,
+               const Bsdf& bsdf, const V3f& receiver, std::uint32_t light_samples,
                std::uint32_t cached_kinds = 0) {
     lane.ended = true;
     const std::array<float, 4> u = random(lane, drawn_to_scatter_, lane.scatter_block());
@@ -822,8 +845,8 @@ class PathStream {
     ++lane.depth;
     // Shadow rays pass thin walls too: light sampling at the last vertex competes with this path
     // still, weighted by the density there, as it is itself.
-    if (!straight_through || !lane.light_sampled) {
-      lane.light_sampled = !s.delta && lights_sampled;
+    if (!straight_through || lane.light_trials <= 0.0f) {
+      lane.light_trials = s.delta ? 0.0f : static_cast<float>(light_samples);
       lane.scatter_pdf = lane.depth == 1 ? s.pdf * static_cast<float>(lane.splits) : s.pdf;
       lane.vertex = point.position;
       lane.vertex_normal = receiver;

@@ -146,21 +146,12 @@ inline T shuffled(T index, T seed) {
   return reverse_bits(laine_karras(reverse_bits(index), seed));
 }
 
-// The upper half of the shuffled order is the same for all of the first points: what it adds is
-// left out of every point. It shifts all of them alike, as the scrambling does anyway.
-constexpr std::uint32_t first_points = 0x10000;
-
-inline Lanes4 sobol_bits(std::uint32_t index, std::uint32_t order, std::uint32_t seed) {
-  const auto part = [](std::uint32_t bits, std::size_t group) {
-    const std::size_t value = (bits >> (4 * group)) & 15u;
+inline Lanes4 sobol_bits(std::uint32_t order) {
+  const auto part = [order](std::size_t group) {
+    const std::size_t value = (order >> (4 * group)) & 15u;
     return *reinterpret_cast<const Lanes4*>(sobol_table.groups[group][value].data());
   };
-  Lanes4 x = (part(order, 0) ^ part(order, 1)) ^ (part(order, 2) ^ part(order, 3));
-  if (index >= first_points) {
-    order ^= shuffled(std::uint32_t(0), seed);
-    x ^= (part(order, 4) ^ part(order, 5)) ^ (part(order, 6) ^ part(order, 7));
-  }
-  return x;
+  return ((part(0) ^ part(1)) ^ (part(2) ^ part(3))) ^ ((part(4) ^ part(5)) ^ (part(6) ^ part(7)));
 }
 
 // Each dimension is scrambled by a seed of its own. The upper 24 bits fill a float's mantissa
@@ -194,7 +185,7 @@ inline std::array<std::array<float, 4>, 2> scrambled(Lanes4 a, Lanes4 b, std::ui
 
 // Point index of the sequence that seed scrambles: four numbers in [0, 1).
 inline std::array<float, 4> sobol_point(std::uint32_t index, std::uint32_t seed) {
-  return detail::scrambled(detail::sobol_bits(index, detail::shuffled(index, seed), seed), seed);
+  return detail::scrambled(detail::sobol_bits(detail::shuffled(index, seed)), seed);
 }
 
 // The same for eight points of eight sequences at once, in about a third of the time.
@@ -202,9 +193,8 @@ inline void sobol_points(const Lanes8& index, const Lanes8& seed,
                          std::array<std::array<float, 4>, 8>& points) {
   const Lanes8 order = detail::shuffled(index, seed);
   for (std::size_t i = 0; i < 8; i += 2) {
-    const auto pair = detail::scrambled(detail::sobol_bits(index[i], order[i], seed[i]),
-                                        detail::sobol_bits(index[i + 1], order[i + 1], seed[i + 1]),
-                                        seed[i], seed[i + 1]);
+    const auto pair = detail::scrambled(detail::sobol_bits(order[i]),
+                                        detail::sobol_bits(order[i + 1]), seed[i], seed[i + 1]);
     points[i] = pair[0];
     points[i + 1] = pair[1];
   }

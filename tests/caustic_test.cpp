@@ -310,5 +310,28 @@ TEST(caustic, eye_paths_alone_bring_the_same_over_glossy_metal) {
   expect_same_by_eye_paths(scene, cornell_camera(), 512, 0.1);
 }
 
+// Of the environment, light paths bring the caustics of the sun alone.
+TEST(caustic, eye_paths_alone_bring_the_same_under_a_sun) {
+  Scene scene;
+  set_sky_and_sun(scene);
+  add_mesh(scene, quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}), diffuse(Color(albedo)));
+  add_sphere(scene, 0.4f, glass(1.5f), translation({0.5, 0.5, 0.2}));
+  Material brushed = metal(Color(0.9f, 0.8f, 0.6f));
+  brushed.roughness = 0.25f;
+  add_sphere(scene, 0.4f, brushed, translation({-0.5, 0.4, 0.2}));
+  expect_same_by_eye_paths(scene, orthographic_camera({0, 3, 4}, {0, 0.2, 0}, 1.2f), 512, 0.1);
+}
+
+// A sheet of index 1 is no obstacle, whichever way the light comes: an even sky shines through.
+TEST(caustic, even_environment_through_a_plate_of_index_one) {
+  Scene scene;
+  scene.environment.radiance = Color(2.0f);
+  add_plate(scene, 0.2f, 0.3f, glass(1.0f), 4.0f);
+  const Received r = receive(scene, 1024);
+  EXPECT_NEAR(r.caustic.value + r.direct.value, 2.0 * pi,
+              sigmas * (r.caustic.error + r.direct.error) + 0.01 * pi);
+  EXPECT_GT(r.caustic.value, 5.0);
+}
+
 }  // namespace
 }  // namespace lumivec::test

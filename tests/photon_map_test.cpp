@@ -149,6 +149,32 @@ TEST(photon_map, every_term_agrees_with_paths) {
   }
 }
 
+// The same under a sky with a sun, all of whose caustics photons bring.
+TEST(photon_map, every_term_agrees_with_paths_under_a_sun) {
+  Scene scene;
+  set_sky_and_sun(scene);
+  Material varnished = diffuse(Color(albedo));
+  varnished.specular = 1.0f;
+  varnished.roughness = 0.5f;
+  add_mesh(scene, quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}), varnished);
+  add_sphere(scene, 0.4f, glass(1.5f), translation({0.5, 0.5, 0.2}));
+  Material brushed = metal(Color(0.9f, 0.8f, 0.6f));
+  brushed.roughness = 0.25f;
+  add_sphere(scene, 0.4f, brushed, translation({-0.5, 0.4, 0.2}));
+  add_sphere(scene, 0.3f, diffuse(Color(0.8f, 0.3f, 0.2f)), translation({0.0, 0.3, 0.9}));
+  const Camera camera = orthographic_camera({0, 3, 4}, {0, 0.2, 0}, 1.2f);
+  const auto reference = mean_terms(scene, camera, square(24, 1024), 4);
+  const auto cached = mean_terms(scene, camera, by_light_vectors(24, 16), 4);
+  for (std::size_t t = 0; t < term_count; ++t) {
+    const double error = std::hypot(reference[t].error, cached[t].error);
+    EXPECT_NEAR(cached[t].value, reference[t].value, 5.0 * error + 0.02 * reference[t].value)
+        << term_names[t] << ": off by " << cached[t].value / reference[t].value - 1.0;
+    // Without photons, what mirrors show of the sun's caustics is left to chance.
+    EXPECT_LT(error, (Term(t) == Term::specular ? 0.15 : 0.05) * reference[t].value)
+        << term_names[t];
+  }
+}
+
 // Discs shrink from map to map: the picture nears the reference, at the sharp edge of the light
 // that a mirror throws, where the squared error goes with the radius: with the fourth root of the
 // number of maps, of which eight times as many samples have four to seven times as many.

@@ -237,6 +237,13 @@ void set_environment(Scene& scene, int width, int height, Function radiance) {
   scene.environment.radiance = Color(1.0f);
 }
 
+// A dim sky with a sun that scattered rays still find: 0.04 sr, with two thirds of the light.
+inline void set_sky_and_sun(Scene& scene) {
+  set_environment(scene, 32, 16, [](int column, int row) {
+    return column == 20 && row == 4 ? Color(300.0f, 280.0f, 250.0f) : Color(0.4f, 0.5f, 0.7f);
+  });
+}
+
 // Radiance above from directions with y > 0, below from the others; half a texel of 1/64 of the
 // half turn lies between.
 inline void set_sky_and_ground(Scene& scene, const Color& above, const Color& below) {
