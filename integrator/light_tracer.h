@@ -1,13 +1,15 @@
 // Light paths for what eye paths find badly or never: light from punctual and small lights and from
 // the environment's brightest parts that comes to a non-specular surface over specular ones,
-// E … D S+ L; and what comes to a broad lobe over glossy and specular ones, and from there to the eye
-// from a broad lobe, E B (… B)? (G|S)+ L, in which B and G are the two kinds of D (bsdf.h). Paths start at the light toward surfaces that
-// have such lobes, and each later vertex is connected to the eye.
+// E … D S+ L; and what comes to a broad lobe over glossy and specular ones, and from there to the
+// eye from a broad lobe, E B (… B)? (G|S)+ L, in which B and G are the two kinds of D (bsdf.h).
+// Paths start at the light toward surfaces that have such lobes, and each later vertex is connected
+// to the eye.
 //
-// The division of labour is exact: eye paths leave out just these paths (Lights::light_traced and environment_light_traced;
-// straight passage through a thin wall does not count as an S event). What neither finds
-// is light from a punctual light over a specular surface that the eye sees only in another specular
-// surface, E S … D S+ L. Source: Veach 1997, sections 4 and 5 (particle tracing, shading normals).
+// The division of labour is exact: eye paths leave out just these paths (Lights::light_traced and
+// environment_light_traced; straight passage through a thin wall does not count as an S event).
+// What neither finds is light from a punctual light over a specular surface that the eye sees only
+// in another specular surface, E S … D S+ L. Source: Veach 1997, sections 4 and 5 (particle
+// tracing, shading normals).
 #pragma once
 
 #include <cstdint>
