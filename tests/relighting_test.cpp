@@ -143,7 +143,8 @@ TEST(relighting, glossy_reflections_follow_the_eye) {
     if (step == 0) first = error;
     std::printf("%d degrees: relMSE %.5f over %d pixels\n", 5 * step, error, count);
     // Of a mean of squares over several hundred pixels, three times the standard error.
-    EXPECT_LT(error, first * (1.0 + 3.0 * std::sqrt(2.0 * 2.0 / count)) * 1.25) << 5 * step << " degrees";
+    EXPECT_LT(error, first * (1.0 + 3.0 * std::sqrt(2.0 * 2.0 / count)) * 1.25)
+        << 5 * step << " degrees";
     EXPECT_LT(error, 0.05);
   }
 }
