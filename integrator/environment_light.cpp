@@ -143,4 +143,25 @@ V3f EnvironmentLight::sample(const V2f& u, float& pdf_out) const {
   return direction;
 }
 
+float EnvironmentLight::share_above(float density) const {
+  if (!image_) return 1.0f / (4.0f * pi) > density ? 1.0f : 0.0f;
+  const int width = image_->width, height = image_->height;
+  double share = 0.0;
+  for (int y = 0; y < height; ++y) {
+    const float row = row_cdf_[std::size_t(y) + 1] - row_cdf_[std::size_t(y)];
+    const float* cdf = column_cdf_.data() + std::size_t(y) * std::size_t(width + 1);
+    // The density is greatest where a texel is nearest to its pole.
+    const float nearest =
+        static_cast<float>(std::min(y, height - 1 - y)) / static_cast<float>(height);
+    const float least = density * 2.0f * pi * pi * std::sin(pi * nearest) /
+                        (static_cast<float>(width) * static_cast<float>(height));
+    for (int x = 0; x < width; ++x) {
+      const float cell = row * (cdf[x + 1] - cdf[x]);
+      // Rounding must not lose a texel that pdf() counts.
+      if (cell > least * (1.0f - 1e-4f)) share += cell;
+    }
+  }
+  return static_cast<float>(share);
+}
+
 }  // namespace lumivec

@@ -21,6 +21,8 @@ class EnvironmentLight {
   // Density of sample(), sr⁻¹.
   float pdf(const V3f& direction) const;
   V3f sample(const V2f& u, float& pdf) const;
+  // The share of sample()'s directions that come from texels where pdf() exceeds density anywhere.
+  float share_above(float density) const;
 
  private:
   V2f map_position(const V3f& direction) const;

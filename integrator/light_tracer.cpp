@@ -72,8 +72,8 @@ LightTracer::LightTracer(const TracedScene& scene, const Lights& lights, const C
     source.directional = static_cast<int>(i);
     add_distant_source(source, mean(lights.directional()[i].illuminance));
   }
-  if (!lights.environment().black())
-    add_distant_source(Source(), 4.0f * pi * lights.environment().mean_radiance());
+  add_distant_source(Source(), 4.0f * pi * lights.environment().mean_radiance() *
+                                   lights.environment_light_traced_share());
   float total = 0.0f;
   for (const Source& s : sources_) total += s.probability;
   float cumulative = 0.0f;

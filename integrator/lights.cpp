@@ -277,6 +277,7 @@ V3f Lights::far_along(const V3f& p, const V3f& direction) const {
 
 bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u,
                     LightSample& out) const {
+  out.environment = false;
   if (directional_.empty() && environment_.black()) {
     float probability;
     const int index = tree_.sample(p, normal, u_light, probability);
@@ -523,6 +524,11 @@ bool Lights::leaves_all_caustics() const {
 
 bool Lights::environment_light_traced(const V3f& direction) const {
   return leaves_caustics_ && (leaves_environment_ || environment_.pdf(direction) > bright_density);
+}
+
+float Lights::environment_light_traced_share() const {
+  if (!leaves_caustics_ || environment_.black()) return 0.0f;
+  return leaves_environment_ ? 1.0f : environment_.share_above(bright_density);
 }
 
 bool Lights::light_traced(const SurfacePoint& hit) const {

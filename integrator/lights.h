@@ -88,6 +88,8 @@ class Lights {
   bool light_traced(const SurfacePoint& hit) const;
   // Whether what arrives from a unit direction of the environment is.
   bool environment_light_traced(const V3f& direction) const;
+  // The share of the environment's light that is, or a little more.
+  float environment_light_traced_share() const;
 
  private:
   // Probabilities of drawing from the tree, the environment, and each directional light.
