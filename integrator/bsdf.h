@@ -110,6 +110,8 @@ class Bsdf {
 
   // Draws a direction; u_lobe and u in [0, 1). False: absorbed, and the path ends there.
   bool sample(float u_lobe, const V2f& u, BsdfSample& sample) const;
+  // The same for lambertian surfaces, of what sample_cosine_hemisphere makes of u.
+  bool sample_lambertian(const V3f& cosine_direction, BsdfSample& sample) const;
 
   // The same surface with the lobes of some kinds alone, bit 1 << kind each: eval leaves out
   // others, sample never draws them.

@@ -6,17 +6,20 @@
 
 namespace lumivec {
 
-bool Bsdf::sample(float u_lobe, const V2f& u, BsdfSample& sample) const {
+bool Bsdf::sample_lambertian(const V3f& cosine_direction, BsdfSample& sample) const {
+  sample.wi = frame_.to_world(cosine_direction);
+  sample.weight = diffuse_ * pi;
+  sample.pdf = cosine_direction.z * inv_pi;
+  sample.kind = LobeKind::diffuse;
   sample.delta = false;
-  if (lambertian_) {
-    const V3f local = sample_cosine_hemisphere(u);
-    sample.wi = frame_.to_world(local);
-    sample.weight = diffuse_ * pi;
-    sample.pdf = local.z * inv_pi;
-    sample.kind = LobeKind::diffuse;
-    sample.transmitted = false;
-    return local.z > 0.0f && sample.wi.dot(geometric_normal_) > 0.0f && !is_black(diffuse_);
-  }
+  sample.transmitted = false;
+  return cosine_direction.z > 0.0f && sample.wi.dot(geometric_normal_) > 0.0f &&
+         !is_black(diffuse_);
+}
+
+bool Bsdf::sample(float u_lobe, const V2f& u, BsdfSample& sample) const {
+  if (lambertian_) return sample_lambertian(sample_cosine_hemisphere(u), sample);
+  sample.delta = false;
 
   int chosen = -1;
   for (int lobe = 0; lobe < lobe_count; ++lobe) {

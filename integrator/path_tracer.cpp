@@ -15,7 +15,12 @@
 namespace lumivec {
 namespace {
 
-constexpr int lane_count = 8;
+// Rays are traced in packets of so many.
+constexpr int packet_size = 8;
+// Paths take turns: all are traced, then all shaded, so that each piece of code stays in the
+// instruction cache for a while and packets are full. On the Cornell box 4 to 12 packets take some
+// 5% less time than one.
+constexpr int lane_count = 8 * packet_size;
 
 // Continuations of each path from its first vertex on. Light from further away has nearly all of
 // the variance, and what leads to the first vertex (the eye's ray, light sampling there) need not
@@ -163,15 +168,21 @@ struct Lane {
   std::uint32_t scatter_block() const { return light_block() + 1; }
 };
 
-// A block of random numbers of each lane.
+// A block of random numbers of each of eight lanes.
 struct DrawnBlocks {
   Lanes8 index, block;
-  std::array<std::array<float, 4>, lane_count> points;
+  std::array<std::array<float, 4>, 8> points;
+};
+
+// What the lanes draw ahead.
+struct DrawnNumbers {
+  DrawnBlocks for_lights, to_scatter;
+  std::array<V3f, 8> directions;  // by the cosine, of to_scatter
 };
 
 }  // namespace
 
-// The eight lanes of one tile.
+// The lanes of one tile.
 class PathStream {
  public:
   PathStream(const PathTracer& tracer, const Tile& tile, std::uint32_t first_sample,
@@ -241,26 +252,48 @@ class PathStream {
 
   // The random numbers that the lanes will need at their next vertices, if nothing changes there.
   void draw() {
-    Lanes8 seeds = {};
-    for (std::size_t i = 0; i < lane_count; ++i) {
-      const Lane& lane = lanes_[i];
-      seeds[i] = lane.seed;
-      drawn_for_lights_.block[i] = lane.light_block();
-      drawn_for_lights_.index[i] = lane.index_of(lane.light_block());
-      drawn_to_scatter_.block[i] = lane.scatter_block();
-      drawn_to_scatter_.index[i] = lane.index_of(lane.scatter_block());
+    for (std::size_t first = 0; first < lane_count; first += 8) {
+      DrawnNumbers& drawn = drawn_[first / 8];
+      Lanes8 seeds = {};
+      for (std::size_t i = 0; i < 8; ++i) {
+        const Lane& lane = lanes_[first + i];
+        seeds[i] = lane.seed;
+        drawn.for_lights.block[i] = lane.light_block();
+        drawn.for_lights.index[i] = lane.index_of(lane.light_block());
+        drawn.to_scatter.block[i] = lane.scatter_block();
+        drawn.to_scatter.index[i] = lane.index_of(lane.scatter_block());
+      }
+      for (DrawnBlocks* blocks : {&drawn.for_lights, &drawn.to_scatter})
+        sobol_points(blocks->index, hash_combine(seeds, blocks->block), blocks->points);
+      sample_cosine_hemispheres(drawn.to_scatter.points, drawn.directions);
     }
-    for (DrawnBlocks* drawn : {&drawn_for_lights_, &drawn_to_scatter_})
-      sobol_points(drawn->index, hash_combine(seeds, drawn->block), drawn->points);
   }
 
-  // Four numbers for a use that block tells apart.
-  std::array<float, 4> random(const Lane& lane, const DrawnBlocks& drawn, std::uint32_t block,
-                              std::uint32_t uses = 1, std::uint32_t use = 0) const {
-    const auto i = static_cast<std::size_t>(&lane - lanes_);
-    const std::uint32_t index = lane.index_of(block, uses, use);
-    if (drawn.block[i] == block && drawn.index[i] == index) return drawn.points[i];
+  std::size_t number_of(const Lane& lane) const { return static_cast<std::size_t>(&lane - lanes_); }
+
+  // Four numbers for light sampling.
+  std::array<float, 4> random_for_lights(const Lane& lane) const {
+    const std::size_t i = number_of(lane);
+    const DrawnBlocks& drawn = drawn_[i / 8].for_lights;
+    const std::uint32_t block = lane.light_block(),
+                        index = lane.index_of(block, lane.light_samples, lane.light_sample);
+    if (drawn.block[i % 8] == block && drawn.index[i % 8] == index) return drawn.points[i % 8];
     return sobol_point(index, hash_combine(lane.seed, block));
+  }
+
+  // A direction by the BSDF; u_survival: a number for the roulette.
+  bool sample_bsdf(const Lane& lane, const Bsdf& bsdf, BsdfSample& sample,
+                   float& u_survival) const {
+    const std::size_t i = number_of(lane);
+    const DrawnNumbers& drawn = drawn_[i / 8];
+    const std::uint32_t block = lane.scatter_block(), index = lane.index_of(block);
+    const bool known =
+        drawn.to_scatter.block[i % 8] == block && drawn.to_scatter.index[i % 8] == index;
+    const std::array<float, 4> u =
+        known ? drawn.to_scatter.points[i % 8] : sobol_point(index, hash_combine(lane.seed, block));
+    u_survival = u[3];
+    if (known && bsdf.lambertian()) return bsdf.sample_lambertian(drawn.directions[i % 8], sample);
+    return bsdf.sample(u[0], V2f(u[1], u[2]), sample);
   }
 
   // Starts paths in idle lanes; false when none are left and none run.
@@ -347,7 +380,7 @@ class PathStream {
     }
   }
 
-  // Some of Embree's packet kernels look at lanes that are not valid: they must hold an empty ray.
+  // Some of Embree's packet kernels look at rays that are not valid: they must be empty.
   static void disable(RTCRay8& rays, int i) {
     rays.org_x[i] = rays.org_y[i] = rays.org_z[i] = 0.0f;
     rays.dir_x[i] = rays.dir_y[i] = 0.0f;
@@ -358,7 +391,7 @@ class PathStream {
 
   // What Embree does not change.
   static void set_constants(RTCRay8& rays) {
-    for (int i = 0; i < lane_count; ++i) {
+    for (int i = 0; i < packet_size; ++i) {
       rays.time[i] = 0.0f;
       rays.mask[i] = ~0u;
       rays.id[i] = static_cast<unsigned>(i);
@@ -366,69 +399,97 @@ class PathStream {
     }
   }
 
-  void trace() {
-    alignas(64) int valid[lane_count];
+  static void set(RTCRay8& rays, int i, const V3f& origin, const V3f& direction, float near,
+                  float far) {
+    rays.org_x[i] = origin.x;
+    rays.org_y[i] = origin.y;
+    rays.org_z[i] = origin.z;
+    rays.dir_x[i] = direction.x;
+    rays.dir_y[i] = direction.y;
+    rays.dir_z[i] = direction.z;
+    rays.tnear[i] = near;
+    rays.tfar[i] = far;
+  }
+
+  // Lanes of one packet: their numbers, and how many they are.
+  struct Packet {
+    std::array<int, packet_size> lanes;
+    int size = 0;
+  };
+
+  // Puts the lanes for which wanted(lane) holds into packets, and hands these to trace_packet.
+  template <typename Wanted, typename TracePacket>
+  void in_packets(Wanted wanted, TracePacket trace_packet) {
+    Packet packet;
     for (int i = 0; i < lane_count; ++i) {
-      const Lane& lane = lanes_[i];
-      valid[i] = lane.active ? -1 : 0;
-      RTCRay8& ray = rays_.ray;
-      if (!lane.active) {
-        disable(ray, i);
-        continue;
-      }
-      ray.org_x[i] = lane.origin.x;
-      ray.org_y[i] = lane.origin.y;
-      ray.org_z[i] = lane.origin.z;
-      ray.dir_x[i] = lane.direction.x;
-      ray.dir_y[i] = lane.direction.y;
-      ray.dir_z[i] = lane.direction.z;
-      ray.tnear[i] = lane.near;
-      ray.tfar[i] = lane.far;
+      if (!wanted(lanes_[i])) continue;
+      packet.lanes[static_cast<std::size_t>(packet.size++)] = i;
+      if (packet.size < packet_size) continue;
+      trace_packet(packet);
+      packet.size = 0;
+    }
+    if (packet.size > 0) trace_packet(packet);
+  }
+
+  TraceQuery query_of(const Packet& packet) {
+    TraceQuery query = t_.scene_.query();
+    if (t_.scene_.has_filters()) seed(packet);
+    query.seeds = seeds_;
+    return query;
+  }
+
+  // The rays of a packet that are valid; the others are emptied.
+  static void complete(const Packet& packet, RTCRay8& rays, int* valid) {
+    for (int i = 0; i < packet_size; ++i) {
+      valid[i] = i < packet.size ? -1 : 0;
+      if (i >= packet.size) disable(rays, i);
+    }
+  }
+
+  void trace() {
+    in_packets([](const Lane& lane) { return lane.active; },
+               [this](const Packet& packet) { trace(packet); });
+  }
+
+  void trace(const Packet& packet) {
+    alignas(32) int valid[packet_size];
+    complete(packet, rays_.ray, valid);
+    for (int i = 0; i < packet.size; ++i) {
+      const Lane& lane = lanes_[packet.lanes[i]];
+      set(rays_.ray, i, lane.origin, lane.direction, lane.near, lane.far);
       rays_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rays_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
       ++(lane.camera_ray ? statistics_.rays_camera : statistics_.rays_scatter);
     }
-    TraceQuery query = t_.scene_.query();
-    if (t_.scene_.has_filters()) seed_lanes();
-    query.seeds = seeds_;
+    TraceQuery query = query_of(packet);
     embree::intersect8(valid, t_.scene_.handle(), query.context, rays_);
+    const RTCHit8& h = rays_.hit;
+    for (int i = 0; i < packet.size; ++i)
+      hits_[packet.lanes[i]] = {rays_.ray.tfar[i], h.u[i],      h.v[i],
+                                h.geomID[i],       h.primID[i], h.instID[0][i]};
   }
 
   void trace_shadows() {
-    alignas(64) int valid[lane_count];
-    bool any = false;
-    for (int i = 0; i < lane_count; ++i) {
-      const Lane& lane = lanes_[i];
-      const bool shadow = lane.active && lane.shadow;
-      valid[i] = shadow ? -1 : 0;
-      if (!shadow) {
-        disable(shadow_rays_, i);
-        continue;
-      }
-      any = true;
-      const V3f d = lane.shadow_target - lane.shadow_origin;
-      shadow_rays_.org_x[i] = lane.shadow_origin.x;
-      shadow_rays_.org_y[i] = lane.shadow_origin.y;
-      shadow_rays_.org_z[i] = lane.shadow_origin.z;
-      shadow_rays_.dir_x[i] = d.x;
-      shadow_rays_.dir_y[i] = d.y;
-      shadow_rays_.dir_z[i] = d.z;
-      shadow_rays_.tnear[i] = 0.0f;
-      shadow_rays_.tfar[i] = 1.0f;
+    in_packets([](const Lane& lane) { return lane.active && lane.shadow; },
+               [this](const Packet& packet) { trace_shadows(packet); });
+  }
+
+  void trace_shadows(const Packet& packet) {
+    alignas(32) int valid[packet_size];
+    complete(packet, shadow_rays_, valid);
+    for (int i = 0; i < packet.size; ++i) {
+      const Lane& lane = lanes_[packet.lanes[i]];
+      set(shadow_rays_, i, lane.shadow_origin, lane.shadow_target - lane.shadow_origin, 0.0f, 1.0f);
       transmittance_[i] = Color(1.0f);
       passed_thin_[i] = 0;
       ++statistics_.rays_shadow;
     }
-    if (!any) return;
-    TraceQuery query = t_.scene_.query();
-    if (t_.scene_.has_filters()) seed_lanes();
-    query.seeds = seeds_;
+    TraceQuery query = query_of(packet);
     query.transmittance = transmittance_;
     query.passed_thin = passed_thin_;
     embree::occluded8(valid, t_.scene_.handle(), query.context, shadow_rays_);
-    for (int i = 0; i < lane_count; ++i) {
-      if (valid[i] == 0) continue;
-      Lane& lane = lanes_[i];
+    for (int i = 0; i < packet.size; ++i) {
+      Lane& lane = lanes_[packet.lanes[i]];
       lane.shadow = false;
       if (shadow_rays_.tfar[i] < 0.0f) continue;
       for (int kind = 0; kind < 2; ++kind) {
@@ -498,18 +559,17 @@ class PathStream {
 
   // A new seed for every ray, so that passing a partly opaque surface once says nothing of the next
   // time.
-  void seed_lanes() {
+  void seed(const Packet& packet) {
     ++rounds_;
-    for (int i = 0; i < lane_count; ++i) {
-      seeds_[i] = hash_combine(hash_combine(lanes_[i].seed, lanes_[i].sample), rounds_);
+    for (int i = 0; i < packet.size; ++i) {
+      const Lane& lane = lanes_[packet.lanes[i]];
+      seeds_[i] = hash_combine(hash_combine(lane.seed, lane.sample), rounds_);
     }
   }
 
   void shade(int i) {
     Lane& lane = lanes_[i];
-    const RTCHit8& h = rays_.hit;
-    const RayHit hit = {rays_.ray.tfar[i], h.u[i],      h.v[i],
-                        h.geomID[i],       h.primID[i], h.instID[0][i]};
+    const RayHit& hit = hits_[i];
     if (!hit.valid()) {
       add_environment(lane);
       lane.ended = true;
@@ -676,13 +736,9 @@ class PathStream {
     go_on(lane, point, parameters, rest, receiver, may_sample_lights ? 1 : 0);
   }
 
-  std::optional<Stop>& stop_of(const Lane& lane) {
-    return stops_[static_cast<std::size_t>(&lane - lanes_)];
-  }
+  std::optional<Stop>& stop_of(const Lane& lane) { return stops_[number_of(lane)]; }
 
-  std::optional<Fork>& fork_of(const Lane& lane) {
-    return forks_[static_cast<std::size_t>(&lane - lanes_)];
-  }
+  std::optional<Fork>& fork_of(const Lane& lane) { return forks_[number_of(lane)]; }
 
   // What lobes that are not cached bring is most of the noise where other light is; delta lobes
   // have one way to go.
@@ -768,8 +824,7 @@ class PathStream {
   // to where a light could be found.
   void sample_light(Lane& lane, const SurfacePoint& point, const Bsdf& bsdf, const Bsdf& scattered,
                     const V3f& receiver, std::uint32_t alone_kinds) {
-    const std::array<float, 4> u =
-        random(lane, drawn_for_lights_, lane.light_block(), lane.light_samples, lane.light_sample);
+    const std::array<float, 4> u = random_for_lights(lane);
     LightSample light;
     if (!t_.lights_.sample(point.position, receiver, u[0], V2f(u[1], u[2]), light)) return;
     // Scattering competes with as many samples as there are continuations, for each of these.
@@ -826,9 +881,9 @@ class PathStream {
                const Bsdf& bsdf, const V3f& receiver, std::uint32_t light_samples,
                std::uint32_t cached_kinds = 0) {
     lane.ended = true;
-    const std::array<float, 4> u = random(lane, drawn_to_scatter_, lane.scatter_block());
     BsdfSample s;
-    if (!bsdf.sample(u[0], V2f(u[1], u[2]), s)) return;
+    float u_survival;
+    if (!sample_bsdf(lane, bsdf, s, u_survival)) return;
     lane.throughput *= s.weight;
     if (is_black(lane.throughput)) return;
     const bool straight_through = s.delta && s.transmitted && parameters.thin_walled;
@@ -860,7 +915,7 @@ class PathStream {
           max_component(lane.throughput) * lane.radiance_scale * static_cast<float>(lane.splits),
           min_survival, lane.depth < endless_depth ? 1.0f : endless_survival);
       if (survival < 1.0f) {
-        if (u[3] >= survival) return;
+        if (u_survival >= survival) return;
         lane.throughput *= 1.0f / survival;
       }
     }
@@ -920,12 +975,14 @@ class PathStream {
   std::vector<GatherResult>* results_ = nullptr;
   RenderStatistics& statistics_;
 
-  DrawnBlocks drawn_for_lights_, drawn_to_scatter_;
+  DrawnNumbers drawn_[lane_count / 8];
+  // One packet at a time.
   RTCRayHit8 rays_;
   RTCRay8 shadow_rays_;
-  std::uint32_t seeds_[lane_count] = {};
-  Color transmittance_[lane_count];
-  std::uint8_t passed_thin_[lane_count] = {};
+  std::uint32_t seeds_[packet_size] = {};
+  Color transmittance_[packet_size];
+  std::uint8_t passed_thin_[packet_size] = {};
+  RayHit hits_[lane_count];
   Lane lanes_[lane_count];
   // Apart from the lanes: few of their bytes are needed at a time.
   std::optional<Fork> forks_[lane_count];

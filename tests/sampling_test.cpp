@@ -50,6 +50,24 @@ TEST(Sampling, CosineHemisphereHasItsMoments) {
   EXPECT_NEAR(second / (n * n), 0.5, 1e-4);
 }
 
+TEST(Sampling, EightDirectionsAreThoseOfEachPoint) {
+  constexpr float last = 1.0f - 0x1p-24f;
+  const std::array<std::array<float, 4>, 8> points = {{{0.9f, 0.5f, 0.5f, 0.9f},
+                                                       {0.9f, 0.0f, 0.0f, 0.9f},
+                                                       {0.9f, last, 0.0f, 0.9f},
+                                                       {0.9f, 0.0f, last, 0.9f},
+                                                       {0.9f, 0.5f, 0.2f, 0.9f},
+                                                       {0.9f, 0.3f, 0.5f, 0.9f},
+                                                       {0.9f, 0.7f, 0.6f, 0.9f},
+                                                       {0.9f, 0.41f, 0.93f, 0.9f}}};
+  std::array<V3f, 8> directions;
+  sample_cosine_hemispheres(points, directions);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const V3f alone = sample_cosine_hemisphere({points[i][1], points[i][2]});
+    EXPECT_NEAR((directions[i] - alone).length(), 0.0f, 2e-7f) << i;
+  }
+}
+
 TEST(Sampling, CornersOfTheSquareAreOnTheHorizon) {
   constexpr float last = 1.0f - 0x1p-24f;
   for (const V2f& u : {V2f(0.0f, 0.0f), V2f(last, 0.0f), V2f(0.0f, last), V2f(0.0f, 0.5f)}) {
