@@ -1,7 +1,5 @@
 #include "integrator/render.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -15,9 +13,9 @@
 #include <thread>
 
 #include "integrator/cache_builder.h"
-#include "integrator/denormals.h"
 #include "integrator/light_tracer.h"
 #include "integrator/paper_builder.h"
+#include "integrator/parallel.h"
 #include "integrator/path_tracer.h"
 #include "integrator/sampling.h"
 
@@ -543,23 +541,17 @@ class StillRender {
 
   template <typename Sample>
   void for_each_tile(const Sample& sample, bool first_pass) {
-    tbb::parallel_for(
-        tbb::blocked_range<int>(0, film_.tile_count(), 1),
-        [&](const tbb::blocked_range<int>& range) {
-          const FlushDenormals flush;
-          std::vector<PixelSums> sums;
-          for (int i = range.begin(); i < range.end() && !stop_; ++i) {
-            const Tile tile = film_.tile(i);
-            sums.assign(std::size_t(tile.width) * std::size_t(tile.height), PixelSums());
-            RenderStatistics counts;
-            sample(tile, sums, counts);
-            film_.add(tile, sums, first_pass);
-            const std::lock_guard lock(mutex_);
-            statistics_.add_counts(counts);
-            note_progress(first_pass ? 0 : 1);
-          }
-        },
-        tbb::simple_partitioner());
+    for_each(std::size_t(film_.tile_count()), [&](std::size_t i) {
+      if (stop_) return;
+      const Tile tile = film_.tile(int(i));
+      std::vector<PixelSums> sums(std::size_t(tile.width) * std::size_t(tile.height));
+      RenderStatistics counts;
+      sample(tile, sums, counts);
+      film_.add(tile, sums, first_pass);
+      const std::lock_guard lock(mutex_);
+      statistics_.add_counts(counts);
+      note_progress(first_pass ? 0 : 1);
+    });
   }
 
   // As many light paths as the pass had eye paths, for the picture. A pass that is stopped leaves
@@ -606,21 +598,15 @@ class StillRender {
   void trace_light_batches(std::uint64_t begin, std::uint64_t count, const Take& take) {
     const auto batches = static_cast<std::uint32_t>((count + light_batch - 1) / light_batch);
     std::vector<std::vector<Item>> items(batches);
-    tbb::parallel_for(
-        tbb::blocked_range<std::uint32_t>(0, batches, 1),
-        [&](const tbb::blocked_range<std::uint32_t>& range) {
-          const FlushDenormals flush;
-          for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-            const std::uint64_t first = begin + std::uint64_t{i} * light_batch;
-            const auto size = static_cast<std::uint32_t>(
-                std::min(std::uint64_t{light_batch}, begin + count - first));
-            RenderStatistics counts;
-            light_tracer_.trace(first, size, items[i], counts);
-            const std::lock_guard lock(mutex_);
-            statistics_.add_counts(counts);
-          }
-        },
-        tbb::simple_partitioner());
+    for_each(batches, [&](std::size_t i) {
+      const std::uint64_t first = begin + std::uint64_t{i} * light_batch;
+      const auto size =
+          static_cast<std::uint32_t>(std::min(std::uint64_t{light_batch}, begin + count - first));
+      RenderStatistics counts;
+      light_tracer_.trace(first, size, items[i], counts);
+      const std::lock_guard lock(mutex_);
+      statistics_.add_counts(counts);
+    });
     for (const std::vector<Item>& batch : items) take(batch);
     const std::lock_guard lock(mutex_);
     note_progress(1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "loader/error.h"
 #include "loader/load_scene.h"
@@ -77,7 +78,53 @@ Image read_environment(const std::filesystem::path& file) {
   return image;
 }
 
+void replace_environment(Image image, float strength, float rotation, Scene& scene) {
+  const int previous = scene.environment.image;
+  if (previous >= 0) {
+    scene.images[static_cast<std::size_t>(previous)] = std::move(image);
+  } else {
+    scene.environment.image = static_cast<int>(scene.images.size());
+    scene.images.push_back(std::move(image));
+  }
+  scene.environment.radiance = Color(strength);
+  scene.environment.rotation = rotation;
+}
+
+// Brightest overhead, darker toward the ground, with a wide soft light from the upper left front:
+// even enough that nothing is lost in shadow, uneven enough that shapes show.
+Image built_in_sky() {
+  constexpr int width = 128, height = 64;
+  constexpr float zenith = 0.9f, horizon = 0.6f, ground = 0.25f, key = 3.0f, sharpness = 12.0f;
+  const V3f toward_key = V3f(-0.6f, 0.7f, 0.6f).normalized();
+  Image image;
+  image.name = "built-in sky";
+  image.width = width;
+  image.height = height;
+  image.rgba32f.reserve(std::size_t{4} * width * height);
+  for (int y = 0; y < height; ++y) {
+    const float theta =
+        std::numbers::pi_v<float> * (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
+    for (int x = 0; x < width; ++x) {
+      const float phi = 2.0f * std::numbers::pi_v<float> *
+                        ((static_cast<float>(x) + 0.5f) / static_cast<float>(width) - 0.5f);
+      const V3f direction(std::sin(theta) * std::sin(phi), std::cos(theta),
+                          -std::sin(theta) * std::cos(phi));
+      const float up = direction.y;
+      float radiance = up > 0.0f ? horizon + (zenith - horizon) * up
+                                 : ground + (horizon - ground) * std::exp(8.0f * up);
+      radiance += key * std::pow(std::max(0.0f, direction.dot(toward_key)), sharpness);
+      for (const float channel : {radiance, radiance, radiance, 1.0f})
+        image.rgba32f.push_back(channel);
+    }
+  }
+  return image;
+}
+
 }  // namespace
+
+void set_built_in_sky(float strength, float rotation, Scene& scene) {
+  replace_environment(built_in_sky(), strength, rotation, scene);
+}
 
 void load_environment(const std::filesystem::path& file, float strength, float rotation,
                       Scene& scene) {
@@ -93,15 +140,7 @@ void load_environment(const std::filesystem::path& file, float strength, float r
   } catch (const std::exception& error) {
     fail(file, error.what(), "give a smaller .hdr or .exr");
   }
-  const int previous = scene.environment.image;
-  if (previous >= 0) {
-    scene.images[static_cast<std::size_t>(previous)] = std::move(image);
-  } else {
-    scene.environment.image = static_cast<int>(scene.images.size());
-    scene.images.push_back(std::move(image));
-  }
-  scene.environment.radiance = Color(strength);
-  scene.environment.rotation = rotation;
+  replace_environment(std::move(image), strength, rotation, scene);
 }
 
 }  // namespace lumivec

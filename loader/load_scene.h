@@ -46,4 +46,8 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options, 
 void load_environment(const std::filesystem::path& file, float strength, float rotation,
                       Scene& scene);
 
+// Replaces it by a grey sky that shows shapes, of radiance 1 or so, for scenes that bring no light
+// of their own; strength and rotation (finite, strength ≥ 0) likewise.
+void set_built_in_sky(float strength, float rotation, Scene& scene);
+
 }  // namespace lumivec

@@ -205,7 +205,27 @@ TEST_F(Command, RefusesContradictions) {
   expect_usage_error({"render", "quad.gltf", "-o", "a.png", "--float"},
                      "--float: is for OpenEXR and there is no such output; add -o OUT.exr");
   expect_usage_error({"render", "quad.gltf", "-o", "a.exr", "--environment-strength", "2"},
-                     "--environment-strength: there is no environment; add --environment FILE");
+                     "--environment-strength: there is no environment; add --environment FILE or "
+                     "--environment sky");
+}
+TEST_F(Command, LightsWhatBringsNoLight) {
+  std::ofstream(folder / "dark.gltf") << R"({"asset": {"version": "2.0"}, "scene": 0,
+    "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [
+    {"attributes": {"POSITION": 0}}]}], "buffers": [{"byteLength": 36, "uri":
+    "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [{"bufferView": 0, "count": 3,
+    "componentType": 5126, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}]})";
+  const auto warnings = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", "dark.gltf", "-o",    "a.png",
+                                          "--size", "8",         "--spp", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments).err;
+  };
+  EXPECT_NE(warnings({}).find("dark.gltf: holds no light; a plain sky lights it"),
+            std::string::npos);
+  EXPECT_EQ(warnings({"--environment", "sky"}).find("no light"), std::string::npos);
+  EXPECT_NE(warnings({"--environment", "none"}).find("so that the picture is black"),
+            std::string::npos);
 }
 TEST_F(Command, NeedsASceneAndAnOutput) {
   expect_usage_error({"render", "-o", "a.exr"},

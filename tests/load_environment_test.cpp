@@ -77,6 +77,34 @@ TEST(LoadEnvironment, ReplacesThePreviousOne) {
   EXPECT_EQ(scene.images.size(), 1u);
 }
 
+TEST(LoadEnvironment, TheBuiltInSkyIsGreyAndBrightestFromTheKey) {
+  Scene scene;
+  scene.images.resize(1);
+  lumivec::set_built_in_sky(2.0f, 0.25f, scene);
+  ASSERT_EQ(scene.environment.image, 1);
+  const lumivec::Image& sky = scene.images[1];
+  ASSERT_EQ(sky.rgba32f.size(), std::size_t{4} * sky.width * sky.height);
+  const auto at = [&](int x, int y) { return sky.rgba32f[std::size_t(4 * (y * sky.width + x))]; };
+  double sum = 0.0, area = 0.0;
+  std::pair<int, int> brightest;
+  for (int y = 0; y < sky.height; ++y) {
+    const double sine = std::sin(3.14159265 * (y + 0.5) / sky.height);
+    for (int x = 0; x < sky.width; ++x) {
+      const float* p = &sky.rgba32f[std::size_t(4 * (y * sky.width + x))];
+      EXPECT_TRUE(p[0] > 0.0f && p[0] == p[1] && p[1] == p[2]);
+      if (p[0] > at(brightest.first, brightest.second)) brightest = {x, y};
+      sum += sine * p[0];
+      area += sine;
+    }
+  }
+  EXPECT_NEAR(sum / area, 0.8, 0.3);
+  // Upper left front: u < 1/2 is left of -Z, and the front is at the map's outer quarters.
+  EXPECT_LT(brightest.first, sky.width / 4);
+  EXPECT_LT(brightest.second, sky.height / 2);
+  EXPECT_EQ(scene.environment.radiance, lumivec::Color(2));
+  EXPECT_EQ(scene.environment.rotation, 0.25f);
+}
+
 TEST(LoadEnvironment, ErrorsNameTheFile) {
   TemporaryFolder folder;
   std::ofstream(folder / "bad.exr") << "no picture";

@@ -83,17 +83,23 @@ void check_picture_size(const RenderOptions& options, const RenderSettings& sett
   }
 }
 
-// Whether anything could light the picture.
+// Whether anything lights the scene, or it needs no light. Unlit surfaces show themselves and light
+// nothing else.
 bool has_light(const Scene& scene) {
   const auto shines = [](const Color& c) { return c != Color(0.0f); };
+  const Material usual;
+  const auto material_of = [&](const Instance& i) -> const Material& {
+    return i.material < 0 ? usual : scene.materials[std::size_t(i.material)];
+  };
+  const bool all_unlit = !scene.instances.empty() &&
+                         std::all_of(scene.instances.begin(), scene.instances.end(),
+                                     [&](const Instance& i) { return material_of(i).unlit; });
   return shines(scene.environment.radiance) ||
          std::any_of(scene.lights.begin(), scene.lights.end(),
                      [&](const Light& light) { return shines(light.intensity); }) ||
-         std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) {
-           if (i.material < 0) return false;
-           const Material& material = scene.materials[std::size_t(i.material)];
-           return material.unlit || shines(material.emission);
-         });
+         std::any_of(scene.instances.begin(), scene.instances.end(),
+                     [&](const Instance& i) { return shines(material_of(i).emission); }) ||
+         all_unlit;
 }
 
 Scene load(const RenderOptions& options, Warnings& warnings) {
@@ -106,15 +112,22 @@ Scene load(const RenderOptions& options, Warnings& warnings) {
     warnings.add(options.scene_file.string() +
                  ": has no camera; one that frames everything is used");
   }
-  if (!options.environment.empty()) {
-    const double radians = options.environment_rotation * std::numbers::pi / 180.0;
-    load_environment(options.environment, float(options.environment_strength), float(radians),
-                     scene);
+  const auto strength = float(options.environment_strength);
+  const auto rotation = float(options.environment_rotation * std::numbers::pi / 180.0);
+  if (options.reads_environment()) {
+    load_environment(options.environment, strength, rotation, scene);
+  } else if (options.environment == "sky") {
+    set_built_in_sky(strength, rotation, scene);
+  } else if (options.environment == "none") {
+    scene.environment = Environment();
+  } else if (!has_light(scene)) {
+    warnings.add(options.scene_file.string() +
+                 ": holds no light; a plain sky lights it, or what --environment FILE says");
+    set_built_in_sky(strength, rotation, scene);
   }
   if (!has_light(scene)) {
-    warnings.add(
-        options.scene_file.string() +
-        ": holds no light, so that the picture is black; light it with --environment FILE");
+    warnings.add(options.scene_file.string() +
+                 ": holds no light, so that the picture is black; light it with --environment");
   }
   return scene;
 }

@@ -26,9 +26,13 @@ struct RenderOptions {
   std::optional<PictureSize> size;  // none: from the camera's aspect
   RenderSettings settings;
 
-  std::filesystem::path environment;  // empty: the scene's own
+  // A file, "sky" (built in) or "none"; empty: the scene's own, or the sky where nothing shines.
+  std::filesystem::path environment;
   double environment_strength = 1.0;  // multiplies its radiance
   double environment_rotation = 0.0;  // degrees
+  bool reads_environment() const {
+    return !environment.empty() && environment != "sky" && environment != "none";
+  }
 
   bool automatic_exposure = false;
   double exposure = 0.0;  // stops

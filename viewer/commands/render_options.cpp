@@ -106,8 +106,9 @@ void add_light_options(CLI::App& app, RenderOptions& options) {
                          int(parse_whole("--max-depth", text, 0, std::numeric_limits<int>::max()));
                    })
       ->group(group);
-  add_value_option(app, "--environment", "FILE",
-                   "Latitude-longitude picture that replaces the scene's environment",
+  add_value_option(app, "--environment", "FILE|sky|none",
+                   "Latitude-longitude picture that replaces the scene's environment; sky: a plain "
+                   "one, built in [the scene's; sky if the scene holds no light]",
                    [&options](const std::string& text) { options.environment = text; })
       ->group(group);
   add_value_option(app, "--environment-strength", "X", "Factor of its radiance [1]",
@@ -226,8 +227,9 @@ void check_render_options(const CLI::App& app, const RenderOptions& options) {
     throw UsageError("--validity: path keeps no records; add --integrator light-vectors");
   }
   for (const char* option : {"--environment-strength", "--environment-rotation"}) {
-    if (app.count(option) && options.environment.empty()) {
-      throw UsageError(std::string(option) + ": there is no environment; add --environment FILE");
+    if (app.count(option) && (options.environment.empty() || options.environment == "none")) {
+      throw UsageError(std::string(option) +
+                       ": there is no environment; add --environment FILE or --environment sky");
     }
   }
 
@@ -244,7 +246,7 @@ void check_render_options(const CLI::App& app, const RenderOptions& options) {
   }
   if (!options.statistics.empty()) files.push_back(options.statistics);
   std::vector<fs::path> taken = {place(options.scene_file)};
-  if (!options.environment.empty()) taken.push_back(place(options.environment));
+  if (options.reads_environment()) taken.push_back(place(options.environment));
   const std::size_t inputs = taken.size();
   for (const fs::path& file : files) {
     const auto same = std::find(taken.begin(), taken.end(), place(file));
