@@ -51,6 +51,33 @@ TEST(environment_light, density_integrates_to_one) {
   EXPECT_NEAR(sphere_integral([&](const V3f& w) { return double(light.pdf(w)); }), 1.0, 1e-4);
 }
 
+// Of a sky with a sun, the share of directions that are drawn toward the sun.
+TEST(environment_light, share_above_a_density) {
+  const Scene scene = varied();
+  const EnvironmentLight light(scene);
+  constexpr float bright = 1.27f;  // 16 times an even sky's
+  constexpr int n = 512;
+  int above = 0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      float pdf = 0.0f;
+      light.sample({(i + 0.5f) / n, (j + 0.5f) / n}, pdf);
+      above += pdf > bright;
+    }
+  }
+  const double share = light.share_above(bright);
+  EXPECT_GT(share, 0.1);
+  EXPECT_LT(share, 1.0);
+  EXPECT_NEAR(share, double(above) / (n * n), 2.0 / n);  // of the grid
+  EXPECT_NEAR(light.share_above(0.0f), 1.0, 1e-5);
+  // The texels around the pole are left: the density has no bound there.
+  EXPECT_LT(light.share_above(1e9f), 0.01f);
+  Scene constant;
+  constant.environment.radiance = Color(1.0f);
+  EXPECT_EQ(EnvironmentLight(constant).share_above(0.07f), 1.0f);
+  EXPECT_EQ(EnvironmentLight(constant).share_above(0.09f), 0.0f);
+}
+
 TEST(environment_light, mean_radiance) {
   const Scene scene = varied();
   const EnvironmentLight light(scene);
