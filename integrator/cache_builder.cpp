@@ -1,6 +1,7 @@
 #include "integrator/cache_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 
@@ -16,8 +17,13 @@ constexpr int first_stride = 32;  // pixels
 // The area that a record's budget is stated for (irradiance_cache.h): a disc with this share of the
 // scene's radius.
 constexpr float budget_radius = 0.1f;
-// Hemispheres of a record at an error of 1%; their number grows as the inverse square of the error.
-constexpr double passes_at_one_percent = 2.0;
+// Paths of a record at an error of 1%; their number grows as the inverse square of the error. They
+// go through as many cells as are needed, or through the finest again and again.
+constexpr double paths_at_one_percent = 1536.0;
+constexpr std::array<HemisphereCells, 3> fineness = {{{8, 24}, {12, 32}, {16, 48}}};
+// The first hemisphere says how far a record reaches, and is forgotten: what whole paths brought is
+// noisy, and what ended in records of such paths is too.
+constexpr HemisphereCells first_cells = fineness[0];
 constexpr std::uint32_t most_passes = 4096;
 // Records whose own noise is still above so many times the error take up to so many times more.
 constexpr double most_noise = 4.0;
@@ -51,7 +57,17 @@ CacheBuilder::CacheBuilder(const PathTracer& tracer, const TracedScene& scene,
 void CacheBuilder::set_error(double error) {
   const float radius = budget_radius * scene_.radius();
   budget_ = static_cast<float>(error) * pi * radius * radius;
-  const double passes = std::ceil(passes_at_one_percent * (0.01 / error) * (0.01 / error));
+  const double paths = paths_at_one_percent * (0.01 / error) * (0.01 / error);
+  HemisphereCells cells = fineness.back();
+  for (std::size_t i = fineness.size(); i-- > 0;) {
+    if (fineness[i].count() >= paths) cells = fineness[i];
+  }
+  // Hemispheres of other cells are not averaged with these.
+  if (cells.count() != cells_.count()) {
+    for (std::uint32_t i = 0; i < cache_.size(); ++i) cache_.edit(i).passes = 0;
+  }
+  cells_ = cells;
+  const double passes = std::ceil(paths / cells_.count());
   passes_ = static_cast<std::uint32_t>(std::clamp(passes, 1.0, double(most_passes)));
   most_variance_ = static_cast<float>(most_noise * most_noise * error * error);
   gather_.emplace(tracer_, scene_, settings_.validity_parts, budget_);
@@ -149,9 +165,11 @@ bool CacheBuilder::make_records(std::vector<RecordRequest>& requests, float weig
     for_each(batch.size(), [&](std::size_t i) {
       RenderStatistics counts;
       const auto number = static_cast<std::uint32_t>(places_.size() + i);
-      records[i] = gather_->make(requests[batch[i]], record_seed(number, 0), counts, path_ends());
+      records[i] = gather_->make(requests[batch[i]], first_cells, record_seed(number, 0), counts,
+                                 path_ends());
       const float footprint = requests[batch[i]].point.footprint;
       records[i].least_reach = IrradianceCache::least_reach(footprint, budget_);
+      records[i].passes = 0;
       const std::lock_guard lock(mutex);
       statistics.add_counts(counts);
     });
@@ -197,7 +215,7 @@ bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& 
       const float share = dark ? 1.0f : std::min(1.0f, brightness(r) / (dark_share * usual));
       const bool noisy = r.variance * share * share > most_variance_ &&
                          r.passes < (dark ? dark_growth : noisy_growth) * passes_;
-      if (!settled_ || r.passes < passes_ || noisy) wanting.push_back(i);
+      if (r.passes < passes_ || noisy) wanting.push_back(i);
     }
     if (wanting.empty()) break;
     // Paths end in the records of the round before, which are replaced when all are done: what a
@@ -211,16 +229,13 @@ bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& 
         const std::uint32_t index = wanting[first + i];
         RenderStatistics counts;
         IrradianceRecord record = cache_.record(index);
-        // What whole paths brought is noisy, and what ended in records of such paths is too.
-        if (!settled_) record.passes = 0;
-        gather_->refine(record, places_[index], record_seed(index, settled_ ? 2 : 1), counts, ends);
+        gather_->refine(record, places_[index], cells_, record_seed(index, 1), counts, ends);
         refined[first + i] = record;
         const std::lock_guard lock(mutex);
         statistics.add_counts(counts);
       });
     }
     for (std::size_t i = 0; i < wanting.size(); ++i) cache_.edit(wanting[i]) = refined[i];
-    settled_ = true;
   }
   cache_.rebuild();
   return true;

@@ -56,9 +56,9 @@ class CacheBuilder {
   const PhotonMap* photons_ = nullptr;
   float budget_ = 0.0f;         // scene units², see IrradianceCache
   float most_variance_ = 0.0f;  // of a record's irradiance, relative
+  HemisphereCells cells_;       // of a record's hemispheres
   std::uint32_t passes_ = 1;    // hemispheres of a record
   std::optional<HemisphereGather> gather_;
-  bool settled_ = false;               // all records have been made by paths that end in the cache
   std::vector<RecordRequest> places_;  // of the records, to refine them
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -23,14 +24,20 @@ constexpr float longest_share = 1.0f;
 constexpr float dark_share = 0.1f;
 // Where the light changes by this share of itself, linear extrapolation ends.
 constexpr float most_change = 1.0f;
-// Paths through the rings from this one down, less steep than two to one, say what stands close by:
-// a wall is met above its foot.
-constexpr int first_flat_ring = HemisphereGather::rings / 5;
+// Paths through the rings below this share of them, less steep than two to one, say what stands
+// close by: a wall is met above its foot.
+constexpr float steep_share = 0.2f;
 
 }  // namespace
 
 // What one hemisphere of paths brought.
 struct HemisphereGather::Hemisphere {
+  explicit Hemisphere(const HemisphereCells& c)
+      : rings(c.rings), sectors(c.sectors), cells(c.count()) {
+    assert(cells <= max_cells && sectors % static_cast<int>(IrradianceRecord::sector_count) == 0);
+  }
+
+  const int rings, sectors, cells;
   LightSum light;
   std::array<V2f, 3> gradient = {V2f(0.0f), V2f(0.0f), V2f(0.0f)};
   std::array<float, 3> curvature{};
@@ -39,9 +46,10 @@ struct HemisphereGather::Hemisphere {
   float variance = 0.0f;
 
   // Cells in rings from the pole down, each ring from azimuth −π on.
-  std::array<Color, cells> radiance;
-  std::array<float, cells> distance;
-  std::array<V3f, cells> direction;  // in the axes of the frame
+  static constexpr int max_cells = most_cells.count();
+  std::array<Color, max_cells> radiance;
+  std::array<float, max_cells> distance;
+  std::array<V3f, max_cells> direction;  // in the axes of the frame
 
   void trace(const PathTracer& tracer, const TracedScene& scene, const RecordRequest& request,
              const Frame& frame, std::uint32_t seed, RenderStatistics& statistics,
@@ -57,13 +65,13 @@ void HemisphereGather::Hemisphere::trace(const PathTracer& tracer, const TracedS
   thread_local std::vector<GatherRay> rays;
   thread_local std::vector<GatherResult> results;
   rays.clear();
-  std::array<int, cells> ray_of;
+  std::array<int, max_cells> ray_of;
   for (int j = 0; j < rings; ++j) {
     for (int k = 0; k < sectors; ++k) {
       const int cell = j * sectors + k;
       const std::array<float, 4> u = sobol_point(static_cast<std::uint32_t>(cell), seed);
-      const float sine2 = (static_cast<float>(j) + u[0]) / rings;
-      const float turn = (static_cast<float>(k) + u[1]) / sectors;
+      const float sine2 = (static_cast<float>(j) + u[0]) / static_cast<float>(rings);
+      const float turn = (static_cast<float>(k) + u[1]) / static_cast<float>(sectors);
       const V2f azimuth = unit_circle(turn >= 1.0f ? 0.0f : turn);
       const float sine = std::sqrt(sine2), cosine = std::sqrt(std::max(0.0f, 1.0f - sine2));
       // Azimuth −π first, as clearance counts its sectors.
@@ -84,7 +92,7 @@ void HemisphereGather::Hemisphere::trace(const PathTracer& tracer, const TracedS
   }
   tracer.gather(rays, request.media, seed, results, statistics, cache);
   const float most = far_away * scene.radius();
-  for (std::size_t i = 0; i < cells; ++i) {
+  for (std::size_t i = 0; i < std::size_t(cells); ++i) {
     distance[i] = most;
     if (ray_of[i] < 0) continue;
     const GatherResult& result = results[static_cast<std::size_t>(ray_of[i])];
@@ -95,15 +103,15 @@ void HemisphereGather::Hemisphere::trace(const PathTracer& tracer, const TracedS
 
 void HemisphereGather::Hemisphere::sum(const Frame& frame) {
   // Cosine-weighted cells: ∫ L ω dω = π / n Σ L ω / cosθ.
-  constexpr float share = pi / cells;
+  const float share = pi / static_cast<float>(cells);
   // Near the horizon 1 / cosθ is large, and so is the noise it brings into the parts of the vector
   // along the surface; the lowest cells take the mean of 1 / cosθ over their ring instead.
   LightSum all;
   double inverse_distance = 0.0;
-  std::array<double, rings> ring_sum{}, ring_squares{};
+  std::array<double, most_cells.rings> ring_sum{}, ring_squares{};
   for (int j = 0; j < rings; ++j) {
-    const float high = std::sqrt(1.0f - static_cast<float>(j) / rings);
-    const float low = std::sqrt(1.0f - static_cast<float>(j + 1) / rings);
+    const float high = std::sqrt(1.0f - static_cast<float>(j) / static_cast<float>(rings));
+    const float low = std::sqrt(1.0f - static_cast<float>(j + 1) / static_cast<float>(rings));
     const float mean_inverse = 2.0f / (high + low);  // ∫ 1/cosθ d(sin²θ) over the ring
     for (int k = 0; k < sectors; ++k) {
       const auto i = static_cast<std::size_t>(j * sectors + k);
@@ -128,14 +136,15 @@ void HemisphereGather::Hemisphere::sum(const Frame& frame) {
   light.flux = all.flux;
   mean_distance = static_cast<float>(cells / inverse_distance);
   double total = 0.0, squares = 0.0;
-  for (std::size_t j = 0; j < rings; ++j) {
+  for (std::size_t j = 0; j < std::size_t(rings); ++j) {
     total += ring_sum[j];
     squares += ring_squares[j];
   }
   variance = total > 0.0 ? static_cast<float>(squares / (total * total)) : 1.0f;
+  const int first_flat_ring = static_cast<int>(steep_share * static_cast<float>(rings));
   for (std::size_t s = 0; s < clearance.size(); ++s) {
     clearance[s] = far_away * mean_distance;
-    constexpr int width = sectors / static_cast<int>(IrradianceRecord::sector_count);
+    const int width = sectors / static_cast<int>(IrradianceRecord::sector_count);
     for (int j = first_flat_ring; j < rings; ++j) {
       for (int k = -1; k <= width; ++k) {
         const int column = (static_cast<int>(s) * width + k + sectors) % sectors;
@@ -149,10 +158,11 @@ void HemisphereGather::Hemisphere::sum(const Frame& frame) {
 
 // Triangles between neighbouring cells' hits, and a ring on the horizon below the lowest.
 void HemisphereGather::Hemisphere::differentiate() {
-  constexpr int loops = rings + 1;
-  std::array<V3d, std::size_t(loops * sectors)> vertex;
-  std::array<Color, std::size_t(loops * sectors)> light_at;
-  std::array<double, std::size_t(loops * sectors)> far;
+  const int loops = rings + 1;
+  constexpr auto most_vertices = std::size_t((most_cells.rings + 1) * most_cells.sectors);
+  std::array<V3d, most_vertices> vertex;
+  std::array<Color, most_vertices> light_at;
+  std::array<double, most_vertices> far;
   for (int j = 0; j < loops; ++j) {
     for (int k = 0; k < sectors; ++k) {
       const auto to = static_cast<std::size_t>(j * sectors + k);
@@ -193,7 +203,7 @@ void HemisphereGather::Hemisphere::differentiate() {
       gradients[std::size_t(c)] += Imath::V2d(d.gx, d.gy) * double(step[c]);
     }
   };
-  const auto at = [](int j, int k) {
+  const auto at = [this](int j, int k) {
     return static_cast<std::size_t>(j * sectors + (k + sectors) % sectors);
   };
   // Each cell between loops j and j + 1 has an upper triangle (its edge on loop j) and a lower one.
@@ -204,11 +214,11 @@ void HemisphereGather::Hemisphere::differentiate() {
     return triangle_light(at(j, k), at(j + 1, k), at(j + 1, k + 1));
   };
   Color pole(0.0f);
-  for (int k = 0; k < sectors; ++k) pole += light_at[at(0, k)] * (1.0f / sectors);
-  std::array<Color, sectors> above;
+  for (int k = 0; k < sectors; ++k) pole += light_at[at(0, k)] * (1.0f / float(sectors));
+  std::array<Color, most_cells.sectors> above;
   above.fill(pole);
   for (int j = 0; j < rings; ++j) {
-    std::array<Color, sectors> up, low;
+    std::array<Color, most_cells.sectors> up, low;
     for (int k = 0; k < sectors; ++k) {
       up[std::size_t(k)] = upper(j, k);
       low[std::size_t(k)] = lower(j, k);
@@ -256,7 +266,8 @@ void HemisphereGather::set_radii(IrradianceRecord& r) const {
     const double r4 = 4.0 * brightness / (double(pi) * curvature);
     return r4 > 0.0 && std::isfinite(r4) ? static_cast<float>(std::sqrt(std::sqrt(r4))) : longest;
   };
-  r.axis = V2f(1.0f, 0.0f);
+  const Frame frame = make_frame(r.normal);
+  r.axis = frame.t;
   if (!parts_.hessian) {
     // As if the light changed its curvature over the distance to what is seen.
     r.radius_small = r.radius_large =
@@ -268,24 +279,26 @@ void HemisphereGather::set_radii(IrradianceRecord& r) const {
   d.hxy = r.curvature[1];
   d.hyy = r.curvature[2];
   const Curvature k = principal_curvature(d);
-  r.axis = V2f(float(k.axis_x), float(k.axis_y));
+  r.axis = frame.t * float(k.axis_x) + frame.b * float(k.axis_y);
   r.radius_small = std::min(longest, radius(k.large));
   r.radius_large = std::min({longest, radius(k.small), most_elongated * r.radius_small});
 }
 
-IrradianceRecord HemisphereGather::make(const RecordRequest& request, std::uint32_t seed,
-                                        RenderStatistics& statistics, const CacheUse& cache) const {
+IrradianceRecord HemisphereGather::make(const RecordRequest& request, const HemisphereCells& cells,
+                                        std::uint32_t seed, RenderStatistics& statistics,
+                                        const CacheUse& cache) const {
   IrradianceRecord record;
   record.position = request.point.position;
   record.normal = request.point.normal;
-  refine(record, request, seed, statistics, cache);
+  refine(record, request, cells, seed, statistics, cache);
   return record;
 }
 
-void HemisphereGather::refine(IrradianceRecord& r, const RecordRequest& request, std::uint32_t seed,
+void HemisphereGather::refine(IrradianceRecord& r, const RecordRequest& request,
+                              const HemisphereCells& cells, std::uint32_t seed,
                               RenderStatistics& statistics, const CacheUse& cache) const {
   const Frame frame = make_frame(r.normal);
-  Hemisphere h;
+  Hemisphere h(cells);
   h.trace(tracer_, scene_, request, frame, hash_combine(seed, r.passes), statistics, cache);
   h.sum(frame);
   h.differentiate();

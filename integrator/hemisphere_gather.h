@@ -3,8 +3,7 @@
 //
 // The cells have equal shares of the cosine-weighted hemisphere. Neighbouring cells' hits span
 // triangles that stay in place when the point moves, so that the derivatives see what is uncovered
-// behind near things (Schwarzhaupt, Jensen and Jarosz 2012). About 0.7 ms a hemisphere of 768
-// paths.
+// behind near things (Schwarzhaupt, Jensen and Jarosz 2012). About 1 µs a path.
 #pragma once
 
 #include "integrator/irradiance_cache.h"
@@ -12,6 +11,13 @@
 #include "integrator/path_tracer.h"
 
 namespace lumivec {
+
+// How finely a hemisphere is divided, by elevation and azimuth.
+struct HemisphereCells {
+  int rings = 16, sectors = 48;  // sectors: a multiple of IrradianceRecord::sector_count
+
+  constexpr int count() const { return rings * sectors; }
+};
 
 class HemisphereGather {
  public:
@@ -22,15 +28,16 @@ class HemisphereGather {
 
   // A record of one hemisphere. seed: of its random numbers.
   // cache: where the paths may end.
-  IrradianceRecord make(const RecordRequest& request, std::uint32_t seed,
-                        RenderStatistics& statistics, const CacheUse& cache = {}) const;
+  IrradianceRecord make(const RecordRequest& request, const HemisphereCells& cells,
+                        std::uint32_t seed, RenderStatistics& statistics,
+                        const CacheUse& cache = {}) const;
 
-  // Averages one more hemisphere into a record.
-  void refine(IrradianceRecord& record, const RecordRequest& request, std::uint32_t seed,
-              RenderStatistics& statistics, const CacheUse& cache = {}) const;
+  // Averages one more hemisphere into a record; those before had as many cells.
+  void refine(IrradianceRecord& record, const RecordRequest& request, const HemisphereCells& cells,
+              std::uint32_t seed, RenderStatistics& statistics, const CacheUse& cache = {}) const;
 
-  static constexpr int rings = 16, sectors = 48;  // cells by elevation and azimuth
-  static constexpr int cells = rings * sectors;
+  // The finest.
+  static constexpr HemisphereCells most_cells = {16, 48};
 
  private:
   struct Hemisphere;

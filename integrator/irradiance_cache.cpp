@@ -34,11 +34,12 @@ float reach(const IrradianceRecord& r) {
   return std::max(r.radius_large, r.least_reach);
 }
 
-// Of azimuths −π … π, counter-clockwise.
+// Of eight azimuths −π … π, counter-clockwise.
 std::size_t sector_of(const V2f& offset) {
-  const float turn = std::atan2(offset.y, offset.x) / (2.0f * pi) + 0.5f;
-  const auto sector = static_cast<std::size_t>(turn * IrradianceRecord::sector_count);
-  return std::min(sector, IrradianceRecord::sector_count - 1);
+  static_assert(IrradianceRecord::sector_count == 8);
+  const bool left = offset.x<0.0f, steep = std::abs(offset.y)> std::abs(offset.x);
+  if (offset.y < 0.0f) return left ? (steep ? 1 : 0) : (steep ? 2 : 3);
+  return left ? (steep ? 6 : 7) : (steep ? 5 : 4);
 }
 
 }  // namespace
@@ -73,8 +74,8 @@ bool IrradianceCache::insert(const IrradianceRecord& record) {
 }
 
 // 1 at the record, 0 from the rim of its ellipse on, and smooth in between.
-float IrradianceCache::weight(const IrradianceRecord& r, const CachePoint& point, float scale,
-                              V2f& offset) const {
+float IrradianceCache::weight(const IrradianceRecord& r, const CachePoint& point,
+                              float scale) const {
   const float cosine = point.normal.dot(r.normal);
   if (cosine <= least_normal_cosine) return 0.0f;
   const float least =
@@ -83,18 +84,19 @@ float IrradianceCache::weight(const IrradianceRecord& r, const CachePoint& point
   const float small = std::max(r.radius_small * scale, least);
   if (!(small > 0.0f)) return 0.0f;
   const V3f d = point.position - r.position;
-  const float off = d.dot(r.normal) / (off_plane_reach * small);
-  const Frame frame = make_frame(r.normal);
-  offset = V2f(d.dot(frame.t), d.dot(frame.b));
-  const float along = (offset.x * r.axis.x + offset.y * r.axis.y) / small;
-  const float across = (offset.y * r.axis.x - offset.x * r.axis.y) / large;
-  const float m2 = along * along + across * across + off * off;
+  const float height = d.dot(r.normal), along = d.dot(r.axis);
+  const float across2 = std::max(0.0f, d.length2() - height * height - along * along);
+  const float reach2 = small * small;
+  const float m2 =
+      (along * along + height * height * (1.0f / (off_plane_reach * off_plane_reach))) / reach2 +
+      across2 / (large * large);
   if (m2 >= 1.0f) return 0.0f;
   return (1.0f - m2) * (1.0f - m2) * (cosine - least_normal_cosine) / (1.0f - least_normal_cosine);
 }
 
 bool IrradianceCache::may_be_hidden(const IrradianceRecord& record, const V2f& offset) const {
-  return parts_.leak_guard && offset.length() > record.clearance[sector_of(offset)];
+  const float clearance = record.clearance[sector_of(offset)];
+  return parts_.leak_guard && offset.length2() > clearance * clearance;
 }
 
 bool IrradianceCache::look_up(const CachePoint& point, float budget, float needed_weight,
@@ -105,9 +107,11 @@ bool IrradianceCache::look_up(const CachePoint& point, float budget, float neede
   int count = 0;
   const auto visit = [&](std::uint32_t index, float distance2) {
     const IrradianceRecord& r = records_[index];
-    V2f offset(0.0f);
-    const float w = weight(r, point, scale, offset);
+    const float w = weight(r, point, scale);
     if (!(w > 0.0f)) return;
+    const Frame frame = make_frame(r.normal);
+    const V3f d = point.position - r.position;
+    const V2f offset(d.dot(frame.t), d.dot(frame.b));
     if (may_be_hidden(r, offset)) {
       const float height = lift * std::sqrt(distance2);
       const V3f from = point.position + point.geometric_normal * (point.error + height);

@@ -66,8 +66,7 @@ class IrradianceCache {
   void rebuild();
 
  private:
-  float weight(const IrradianceRecord& record, const CachePoint& point, float scale,
-               V2f& offset) const;
+  float weight(const IrradianceRecord& record, const CachePoint& point, float scale) const;
   bool may_be_hidden(const IrradianceRecord& record, const V2f& offset) const;
 
   const TracedScene& scene_;

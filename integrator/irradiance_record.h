@@ -63,9 +63,9 @@ struct IrradianceRecord {
   // Second derivatives of the channels' mean irradiance, likewise: xx, xy, yy.
   std::array<float, 3> curvature{};
   // The ellipse inside which the record holds, at a budget of 1 (see IrradianceCache): half axes in
-  // scene units, and the unit direction of the shorter one.
+  // scene units, and the direction of the shorter one, unit, in the tangent plane.
   float radius_small = 0.0f, radius_large = 0.0f;
-  V2f axis{1.0f, 0.0f};
+  V3f axis{1.0f, 0.0f, 0.0f};
   // Distance along the surface to the nearest thing that stands there, by sectors of azimuth in the
   // same axes.
   static constexpr std::size_t sector_count = 8;

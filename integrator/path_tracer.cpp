@@ -74,6 +74,9 @@ float power_heuristic(float taken, float other) {
 // taken where the source stands, and for the sky at its mean cosine.
 Color reflected_diffusely(const Bsdf& bsdf, const CachedLight& cached) {
   const V3f& normal = bsdf.normal();
+  // Sky and source together are the irradiance where the normal is not bent.
+  if (bsdf.lambertian() && normal == cached.sky_normal)
+    return bsdf.diffuse_brdf(normal) * cached.light.irradiance(normal);
   const SkyAndSource light = split_light(cached.light, cached.sky_normal);
   const Color sky = light.sky_irradiance(cached.sky_normal, normal);
   const Color source = light.source_irradiance(normal);

@@ -22,14 +22,15 @@ struct Gathering {
 
   // The mean of that many hemispheres at a point.
   IrradianceRecord make(const V3f& position, const V3f& normal, std::uint32_t passes,
-                        std::uint32_t seed = 1) const {
+                        std::uint32_t seed = 1,
+                        const HemisphereCells& cells = HemisphereGather::most_cells) const {
     RecordRequest request;
     request.point.position = V3f(V3d(position) - traced.origin());
     request.point.geometric_normal = request.point.normal = normal;
     request.point.error = 1e-5f;
     RenderStatistics statistics;
-    IrradianceRecord r = gather.make(request, seed, statistics);
-    while (r.passes < passes) gather.refine(r, request, seed, statistics);
+    IrradianceRecord r = gather.make(request, cells, seed, statistics);
+    while (r.passes < passes) gather.refine(r, request, cells, seed, statistics);
     return r;
   }
 
@@ -54,7 +55,7 @@ TEST(hemisphere_gather, furnace) {
   constexpr std::uint32_t passes = 16;
   const IrradianceRecord r = g.make({0.2f, -1.0f, 0.1f}, {0, 1, 0}, passes);
   // Russian roulette and light sampling scatter single paths by less than their mean.
-  const double relative = 4.0 / std::sqrt(double(passes) * HemisphereGather::cells);
+  const double relative = 4.0 / std::sqrt(double(passes) * HemisphereGather::most_cells.count());
   for (int c = 0; c < 2; ++c) {
     const double radiance = wall.emission[c] * rho / (1.0 - rho);
     const V3f& d = r.light.vector[std::size_t(c)];
@@ -69,13 +70,16 @@ TEST(hemisphere_gather, furnace) {
   EXPECT_GE(r.radius_large, r.radius_small);
 }
 
-// The variance that a record states is that of independent records.
-TEST(hemisphere_gather, stated_variance) {
+// The variance that a record states is that of independent records, however finely the hemisphere
+// is divided.
+class hemisphere_gather_cells : public testing::TestWithParam<HemisphereCells> {};
+
+TEST_P(hemisphere_gather_cells, stated_variance) {
   const Gathering g(cornell_scene());
   double total = 0.0, squares = 0.0, stated = 0.0;
   constexpr int count = 60;
   for (std::uint32_t seed = 1; seed <= count; ++seed) {
-    const IrradianceRecord r = g.make({0.3f, -0.999f, 0.2f}, {0, 1, 0}, 1, seed);
+    const IrradianceRecord r = g.make({0.3f, -0.999f, 0.2f}, {0, 1, 0}, 1, seed, GetParam());
     const double e = sum(r.light.irradiance(r.normal)) / 3.0;
     total += e;
     squares += e * e;
@@ -88,6 +92,10 @@ TEST(hemisphere_gather, stated_variance) {
   EXPECT_LT(variance, stated * (1.0 + 4.0 * std::sqrt(2.0 / count)));
   EXPECT_GT(variance, 0.2 * stated);
 }
+
+INSTANTIATE_TEST_SUITE_P(fineness, hemisphere_gather_cells,
+                         testing::Values(HemisphereCells{8, 24}, HemisphereCells{12, 32},
+                                         HemisphereGather::most_cells));
 
 // First derivatives agree with differences of the irradiance itself.
 TEST(hemisphere_gather, gradient) {

@@ -68,7 +68,7 @@ TEST_P(leak, box_on_the_floor) {
   // positions are rounded may slip through: one of the thousands that a record is made of, and none
   // of the few that a pixel is made of.
   const double allowed =
-      GetParam() == Integrator::path ? 0.0 : 1.0 / (2.0 * HemisphereGather::cells);
+      GetParam() == Integrator::path ? 0.0 : 1.0 / (2.0 * HemisphereGather::most_cells.count());
   expect_error("light inside a closed box, of the room's", inside / mean_level(beauty(picture)),
                allowed);
 }
