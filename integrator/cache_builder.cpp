@@ -46,11 +46,20 @@ constexpr std::uint32_t fewest_to_end_in = 512;
 // Records that are made at a time, without knowing of each other.
 constexpr std::size_t batch_size = 64;
 
+// The first records, of one hemisphere each, must have errors below this share of their mean
+// brightness, but for so many.
+constexpr double most_trial_noise = 0.1;
+constexpr double most_noisy_share = 0.25;
+
+float brightness(const IrradianceRecord& r) {
+  return mean(r.light.irradiance(r.normal));
+}
+
 }  // namespace
 
 CacheBuilder::CacheBuilder(const PathTracer& tracer, const TracedScene& scene,
-                           const RenderSettings& settings, IrradianceCache& cache)
-    : tracer_(tracer), settings_(settings), cache_(cache), scene_(scene) {
+                           const RenderSettings& settings, IrradianceCache& cache, Term term)
+    : tracer_(tracer), settings_(settings), cache_(cache), scene_(scene), term_(term) {
   set_error(settings.cache_error);
 }
 
@@ -70,7 +79,7 @@ void CacheBuilder::set_error(double error) {
   const double passes = std::ceil(paths / cells_.count());
   passes_ = static_cast<std::uint32_t>(std::clamp(passes, 1.0, double(most_passes)));
   most_variance_ = static_cast<float>(most_noise * most_noise * error * error);
-  gather_.emplace(tracer_, scene_, settings_.validity_parts, budget_);
+  gather_.emplace(tracer_, scene_, settings_.validity_parts, budget_, term_);
 }
 
 CacheUse CacheBuilder::path_ends() const {
@@ -82,7 +91,12 @@ CacheUse CacheBuilder::path_ends() const {
 
 CacheUse CacheBuilder::use() const {
   CacheUse use;
-  use.indirect = &cache_;
+  if (term_ == Term::direct) {
+    use.direct = &cache_;
+  } else {
+    use.indirect = &cache_;
+    use.direct = direct_;
+  }
   use.photons = photons_;
   use.budget = budget_;
   use.needed_weight = needed_weight;
@@ -105,6 +119,7 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
     CacheUse asking = use();
     asking.needed_weight = weight;
     asking.requests = &found[i];
+    asking.requested = term_;
     const Tile& tile = tiles[i];
     std::vector<SampleRange> pixels;
     for (int y = 0; y < tile.height; ++y) {
@@ -181,9 +196,9 @@ bool CacheBuilder::make_records(std::vector<RecordRequest>& requests, float weig
   return true;
 }
 
-bool CacheBuilder::fill(const std::vector<Tile>& tiles, int stride, float weight,
+bool CacheBuilder::fill(const std::vector<Tile>& tiles, int stride, int last_stride, float weight,
                         const std::function<bool()>& go_on, RenderStatistics& statistics) {
-  for (; stride >= 1; stride /= 2) {
+  for (; stride >= last_stride; stride /= 2) {
     cache_.commit(budget_);
     std::vector<RecordRequest> requests = collect(tiles, stride, weight, statistics);
     if (!make_records(requests, weight, go_on, statistics)) return false;
@@ -193,17 +208,30 @@ bool CacheBuilder::fill(const std::vector<Tile>& tiles, int stride, float weight
 
 bool CacheBuilder::build(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
                          RenderStatistics& statistics) {
-  return fill(tiles, first_stride, wanted_weight, go_on, statistics) && refine(go_on, statistics) &&
-         fill(tiles, 1, gap_weight, go_on, statistics) && refine(go_on, statistics);
+  return fill(tiles, first_stride, 1, wanted_weight, go_on, statistics) &&
+         refine(go_on, statistics) && fill(tiles, 1, 1, gap_weight, go_on, statistics) &&
+         refine(go_on, statistics);
+}
+
+bool CacheBuilder::try_out(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
+                           RenderStatistics& statistics) {
+  if (!fill(tiles, first_stride, first_stride / 2, wanted_weight, go_on, statistics)) return false;
+  double usual = 0.0;
+  for (std::uint32_t i = 0; i < cache_.size(); ++i)
+    usual += double(brightness(cache_.record(i))) / cache_.size();
+  std::uint32_t noisy = 0;
+  for (std::uint32_t i = 0; i < cache_.size(); ++i) {
+    const IrradianceRecord& r = cache_.record(i);
+    const double error = std::sqrt(double(r.variance)) * double(brightness(r));
+    if (error > most_trial_noise * usual) ++noisy;
+  }
+  return usual > 0.0 && noisy <= most_noisy_share * cache_.size();
 }
 
 bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& statistics) {
   constexpr std::size_t group = 64;
   std::vector<IrradianceRecord> refined;
   std::mutex mutex;
-  const auto brightness = [&](const IrradianceRecord& r) {
-    return mean(r.light.irradiance(r.normal));
-  };
   while (true) {
     std::vector<std::uint32_t> wanting;
     float usual = 0.0f;

@@ -17,8 +17,9 @@ namespace lumivec {
 class CacheBuilder {
  public:
   // All must outlive this.
+  // term: indirect, or direct (PathTracer::gather).
   CacheBuilder(const PathTracer& tracer, const TracedScene& scene, const RenderSettings& settings,
-               IrradianceCache& cache);
+               IrradianceCache& cache, Term term = Term::indirect);
 
   // The relative error that records made from now on are for, > 0: their reach and their number of
   // hemispheres follow from it.
@@ -26,6 +27,15 @@ class CacheBuilder {
 
   // What light paths bring, to records and to pixels alike; null: nothing. Must outlive this.
   void set_photons(const PhotonMap* photons) { photons_ = photons; }
+
+  // Where records and pixels alike find direct light; null: nowhere. Must outlive this.
+  void set_direct(const IrradianceCache* direct) { direct_ = direct; }
+
+  // Makes the first records, and tells whether they are accurate enough that more would pay: light
+  // from small parts of the sky, through windows or between leaves, is found better by sampling it.
+  // As build().
+  bool try_out(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
+               RenderStatistics& statistics);
 
   // Makes the records that the tiles lack, and makes all as good as the error asks. go_on is asked
   // between batches; false ends it early. False: ended.
@@ -36,7 +46,7 @@ class CacheBuilder {
   CacheUse use() const;
 
  private:
-  bool fill(const std::vector<Tile>& tiles, int first_stride, float wanted_weight,
+  bool fill(const std::vector<Tile>& tiles, int first_stride, int last_stride, float wanted_weight,
             const std::function<bool()>& go_on, RenderStatistics& statistics);
   // Averages hemispheres, whose paths end in the cache, into records until each has enough. The
   // first replaces what whole paths brought.
@@ -53,7 +63,9 @@ class CacheBuilder {
   const RenderSettings& settings_;
   IrradianceCache& cache_;
   const TracedScene& scene_;
+  const Term term_;
   const PhotonMap* photons_ = nullptr;
+  const IrradianceCache* direct_ = nullptr;
   float budget_ = 0.0f;         // scene units², see IrradianceCache
   float most_variance_ = 0.0f;  // of a record's irradiance, relative
   HemisphereCells cells_;       // of a record's hemispheres

@@ -74,6 +74,54 @@ EnvironmentLight::EnvironmentLight(const Scene& scene)
   for (float& c : row_cdf_) c = total > 0.0 ? static_cast<float>(c / total) : 0.0f;
   row_cdf_.back() = 1.0f;
   mean_radiance_ = static_cast<float>(total / solid);
+  find_level();
+}
+
+// By a histogram over the logarithm of the texels' brightness.
+void EnvironmentLight::find_level() {
+  constexpr int bin_count = 512;
+  constexpr double darkest = -20.0, octaves_a_bin = 0.125;  // relative to the mean, log2
+  constexpr double most_variation = 0.5;
+  struct Bin {
+    double solid = 0.0, sum = 0.0, squares = 0.0;
+  };
+  std::vector<Bin> bins(bin_count);
+  const int width = image_->width, height = image_->height;
+  Bin below;
+  double solid = 0.0, brightest = 0.0;
+  for (int y = 0; y < height; ++y) {
+    const double sin_theta = std::sin(std::numbers::pi * (y + 0.5) / height);
+    const float* row = image_->rgba32f.data() + 4 * std::size_t(y) * std::size_t(width);
+    for (int x = 0; x < width; ++x, row += 4) {
+      const double b =
+          std::max(0.0f, mean(scale_ * Color(row[0], row[1], row[2]))) / double(mean_radiance_);
+      solid += sin_theta;
+      brightest = std::max(brightest, b);
+      const double place = b > 0.0 ? (std::log2(b) - darkest) / octaves_a_bin : 0.0;
+      Bin& bin = bins[std::size_t(std::clamp(place, 0.0, double(bin_count - 1)))];
+      bin.solid += sin_theta;
+      bin.sum += b * sin_theta;
+      bin.squares += b * b * sin_theta;
+    }
+  }
+  if (!(mean_radiance_ > 0.0f)) return;
+  for (int i = 0; i < bin_count; ++i) {
+    // With all that is brighter than this bin held at its upper end.
+    const Bin& bin = bins[std::size_t(i)];
+    below.solid += bin.solid;
+    below.sum += bin.sum;
+    below.squares += bin.squares;
+    const double level = std::exp2(darkest + octaves_a_bin * (i + 1)), above = solid - below.solid;
+    const double sum = below.sum + above * level, squares = below.squares + above * level * level;
+    if (squares * solid <= (1.0 + most_variation * most_variation) * sum * sum) continue;
+    if (level < brightest) level_ = static_cast<float>(level) * mean_radiance_;
+    return;
+  }
+}
+
+float EnvironmentLight::peak_share(const Color& radiance) const {
+  const float brightness = mean(radiance);
+  return brightness > level_ ? 1.0f - level_ / brightness : 0.0f;
 }
 
 // Position in the map, each coordinate in [0, 1].

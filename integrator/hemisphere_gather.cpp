@@ -53,7 +53,7 @@ struct HemisphereGather::Hemisphere {
 
   void trace(const PathTracer& tracer, const TracedScene& scene, const RecordRequest& request,
              const Frame& frame, std::uint32_t seed, RenderStatistics& statistics,
-             const CacheUse& cache);
+             const CacheUse& cache, Term term);
   void sum(const Frame& frame);
   void differentiate();
 };
@@ -61,7 +61,7 @@ struct HemisphereGather::Hemisphere {
 void HemisphereGather::Hemisphere::trace(const PathTracer& tracer, const TracedScene& scene,
                                          const RecordRequest& request, const Frame& frame,
                                          std::uint32_t seed, RenderStatistics& statistics,
-                                         const CacheUse& cache) {
+                                         const CacheUse& cache, Term term) {
   thread_local std::vector<GatherRay> rays;
   thread_local std::vector<GatherResult> results;
   rays.clear();
@@ -90,7 +90,7 @@ void HemisphereGather::Hemisphere::trace(const PathTracer& tracer, const TracedS
       rays.push_back({origin, world, static_cast<std::uint32_t>(cell)});
     }
   }
-  tracer.gather(rays, request.media, seed, results, statistics, cache);
+  tracer.gather(rays, request.media, seed, results, statistics, cache, term);
   const float most = far_away * scene.radius();
   for (std::size_t i = 0; i < std::size_t(cells); ++i) {
     distance[i] = most;
@@ -245,8 +245,12 @@ void HemisphereGather::Hemisphere::differentiate() {
 }
 
 HemisphereGather::HemisphereGather(const PathTracer& tracer, const TracedScene& scene,
-                                   const ValidityParts& parts, float budget)
-    : tracer_(tracer), scene_(scene), parts_(parts), scale_(std::sqrt(std::sqrt(budget))) {}
+                                   const ValidityParts& parts, float budget, Term term)
+    : tracer_(tracer),
+      scene_(scene),
+      parts_(parts),
+      scale_(std::sqrt(std::sqrt(budget))),
+      term_(term) {}
 
 // Half axes for a budget of 1; see IrradianceCache.
 void HemisphereGather::set_radii(IrradianceRecord& r) const {
@@ -299,7 +303,7 @@ void HemisphereGather::refine(IrradianceRecord& r, const RecordRequest& request,
                               RenderStatistics& statistics, const CacheUse& cache) const {
   const Frame frame = make_frame(r.normal);
   Hemisphere h(cells);
-  h.trace(tracer_, scene_, request, frame, hash_combine(seed, r.passes), statistics, cache);
+  h.trace(tracer_, scene_, request, frame, hash_combine(seed, r.passes), statistics, cache, term_);
   h.sum(frame);
   h.differentiate();
   const float share = 1.0f / static_cast<float>(r.passes + 1);

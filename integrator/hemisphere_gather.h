@@ -23,8 +23,9 @@ class HemisphereGather {
  public:
   // tracer and scene must outlive this.
   // budget: that records will be asked for, scene units² (IrradianceCache).
+  // term: indirect, or direct (PathTracer::gather).
   HemisphereGather(const PathTracer& tracer, const TracedScene& scene, const ValidityParts& parts,
-                   float budget);
+                   float budget, Term term = Term::indirect);
 
   // A record of one hemisphere. seed: of its random numbers.
   // cache: where the paths may end.
@@ -47,6 +48,7 @@ class HemisphereGather {
   const TracedScene& scene_;
   const ValidityParts parts_;
   const float scale_;  // of radii, at that budget
+  const Term term_;
 };
 
 }  // namespace lumivec

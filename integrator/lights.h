@@ -57,6 +57,8 @@ class Lights {
   explicit Lights(const TracedScene& scene);
 
   bool empty() const { return emitters_.empty() && directional_.empty() && environment_.black(); }
+  // Whether there is no light but the environment.
+  bool environment_alone() const { return emitters_.empty() && directional_.empty(); }
   // Punctual and directional lights: scattered rays cannot find them.
   bool has_delta() const { return has_delta_; }
 

@@ -142,10 +142,15 @@ struct Lane {
   float scatter_pdf = 0.0f;
 
   std::uint32_t light_samples = 1, light_sample = 0;  // of the vertex, and which of them is next
+  // The diffuse lobe has the direct light of the environment's even part there.
+  bool even_cached = false;
   bool shadow = false;
   V3f shadow_origin{0.0f}, shadow_target{0.0f};
   // If nothing is in between: of non-specular and of specular lobes.
   Color shadow_light[2] = {Color(0.0f), Color(0.0f)};
+  // Besides, of the diffuse lobe, if thin walls are in between and nothing else: what is cached
+  // otherwise.
+  Color shadow_even{0.0f};
   Term shadow_term[2] = {Term::direct, Term::specular};
 
   std::array<Color, term_count> radiance;
@@ -217,15 +222,16 @@ class PathStream {
   // For paths that gather light.
   PathStream(const PathTracer& tracer, const std::vector<GatherRay>& rays, const MediumStack& media,
              std::uint32_t seed, std::vector<GatherResult>& results, RenderStatistics& statistics,
-             const CacheUse& cache)
+             const CacheUse& cache, Term term)
       : t_(tracer),
         path_count_(rays.size()),
         cache_(cache),
-        terms_(term_bit(Term::indirect)),
+        terms_(term_bit(term)),
         rays_to_gather_(&rays),
         gather_media_(media),
         gather_seed_(seed),
         results_(&results),
+        gathered_(term),
         statistics_(statistics) {}
 
   void run() {
@@ -372,14 +378,14 @@ class PathStream {
 
   void deliver(Lane& lane) {
     lane.active = false;
-    constexpr auto indirect = static_cast<std::size_t>(Term::indirect);
+    const auto term = static_cast<std::size_t>(gathered_);
     GatherResult& result = (*results_)[lane.pixel];
     result.distance = lane.hit_depth;
     result.radiance = Color(0.0f);
-    if (is_finite(lane.radiance[indirect])) {
-      result.radiance = lane.radiance[indirect];
+    if (is_finite(lane.radiance[term])) {
+      result.radiance = lane.radiance[term];
     } else {
-      ++statistics_.dropped[indirect];
+      ++statistics_.dropped[term];
     }
   }
 
@@ -500,6 +506,10 @@ class PathStream {
                                           : lane.shadow_term[kind];
         lane.add(term, lane.shadow_light[kind] * transmittance_[i]);
       }
+      if (passed_thin_[i]) {
+        lane.add(after_event(lane.shadow_term[0], LobeKind::specular),
+                 lane.shadow_even * transmittance_[i]);
+      }
     }
   }
 
@@ -521,7 +531,7 @@ class PathStream {
     for (std::uint32_t k = 0; sky && k < stop_sky_samples; ++k) {
       for (Lane& lane : lanes_) {
         const std::optional<Stop>& stop = stop_of(lane);
-        if (stop && stop->samples_sky()) sample_sky(lane, *stop, k);
+        if (stop && stop->samples_sky() && !only_even_light(lane)) sample_sky(lane, *stop, k);
       }
       trace_shadows();
     }
@@ -533,6 +543,12 @@ class PathStream {
       lane.light_sample = 0;
       stop.reset();
     }
+  }
+
+  // Whether the diffuse lobe has all of its direct light.
+  bool only_even_light(const Lane& lane) const {
+    return lane.even_cached && t_.lights_.environment_alone() &&
+           !t_.lights_.environment().has_peaks() && !t_.scene_.has_filters();
   }
 
   // What the diffuse lobe makes of the environment, by a direction that the lobe would scatter to.
@@ -548,14 +564,16 @@ class PathStream {
     const float by_lights = lights.pdf_environment(stop.point.position, stop.receiver, direction);
     const float weight = power_heuristic(stop_sky_samples * cosine_hemisphere_pdf(local.z),
                                          stop_light_samples * by_lights);
-    Color light = lane.throughput * stop.bsdf.diffuse_brdf(direction) *
-                  lights.environment().radiance(direction) * (pi * weight / stop_sky_samples);
+    const Color radiance = lights.environment().radiance(direction);
+    Color light = lane.throughput * stop.bsdf.diffuse_brdf(direction) * radiance *
+                  (pi * weight / stop_sky_samples);
     if (const Material* medium = lane.media.top())
       light *= volume_transmittance(*medium, std::numeric_limits<float>::infinity());
     lane.shadow_term[0] = after_event(lane.term, LobeKind::diffuse);
     lane.shadow_light[0] = light;
-    lane.shadow_light[1] = Color(0.0f);
-    lane.shadow = !is_black(light) && (reachable_terms(lane.shadow_term[0]) & terms_) != 0;
+    lane.shadow_light[1] = lane.shadow_even = Color(0.0f);
+    if (lane.even_cached) take_even(lane, light, radiance);
+    lane.shadow = any_shadow_light(lane);
     lane.shadow_origin = offset_origin(stop.point, direction);
     lane.shadow_target = lights.far_along(stop.point.position, direction);
   }
@@ -573,8 +591,14 @@ class PathStream {
   void shade(int i) {
     Lane& lane = lanes_[i];
     const RayHit& hit = hits_[i];
+    lane.even_cached = false;
     if (!hit.valid()) {
-      add_environment(lane);
+      gathered_ == Term::direct ? add_even_environment(lane) : add_environment(lane);
+      lane.ended = true;
+      return;
+    }
+    if (gathered_ == Term::direct) {
+      lane.hit_depth = hit.distance;
       lane.ended = true;
       return;
     }
@@ -672,7 +696,8 @@ class PathStream {
   // Of the lobes that are there, those whose indirect light caches hold.
   std::uint32_t cached_kinds(const Bsdf& bsdf, const SurfaceParameters& parameters) const {
     if (cache_.paper) return paper_kinds(bsdf, parameters);
-    return cache_.indirect && bsdf.has(LobeKind::diffuse) ? kind_bit(LobeKind::diffuse) : 0;
+    const bool any = cache_.indirect || (cache_.direct && cache_.asks());
+    return any && bsdf.has(LobeKind::diffuse) ? kind_bit(LobeKind::diffuse) : 0;
   }
 
   // Adds those lobes' indirect light, where the cache has it; otherwise asks for it.
@@ -687,16 +712,34 @@ class PathStream {
     if (cache_.paper)
       return use_paper_cache(lane, {at, -lane.direction, parameters, lane.media}, bsdf);
     CachedLight light;
-    if (!cache_.indirect->look_up(at, cache_.budget, cache_.needed_weight, light,
-                                  statistics_.rays_visibility)) {
-      ++statistics_.cache_misses;
-      if (cache_.requests) cache_.requests->push_back({at, lane.media});
+    const Term direct = after_event(lane.term, LobeKind::diffuse);
+    if (cache_.requests && cache_.requested == Term::direct) {
+      if (!lane.media.top()) look_up(*cache_.direct, lane, at, light);
       return false;
     }
-    ++statistics_.cache_hits;
-    const Term term = after_event(after_event(lane.term, LobeKind::diffuse), LobeKind::diffuse);
-    lane.add(term, lane.throughput * reflected_diffusely(bsdf, light));
+    if (!look_up(*cache_.indirect, lane, at, light)) return false;
+    lane.add(after_event(direct, LobeKind::diffuse),
+             lane.throughput * reflected_diffusely(bsdf, light));
+    // What a volume takes of light from infinitely far away is not cached.
+    if (cache_.direct && !lane.media.top() && !cache_.requests &&
+        look_up(*cache_.direct, lane, at, light)) {
+      lane.add(direct, lane.throughput * reflected_diffusely(bsdf, light));
+      lane.even_cached = true;
+    }
     return true;
+  }
+
+  // What is not found is asked for, where that is wanted.
+  bool look_up(const IrradianceCache& cache, const Lane& lane, const CachePoint& at,
+               CachedLight& light) {
+    if (cache.look_up(at, cache_.budget, cache_.needed_weight, light,
+                      statistics_.rays_visibility)) {
+      ++statistics_.cache_hits;
+      return true;
+    }
+    ++statistics_.cache_misses;
+    if (cache_.requests) cache_.requests->push_back({at, lane.media});
+    return false;
   }
 
   bool use_paper_cache(Lane& lane, const PaperPoint& point, const Bsdf& bsdf) {
@@ -728,6 +771,7 @@ class PathStream {
     }
     const Bsdf rest = bsdf.with_only(~kinds);
     split_beside_cache(lane, rest);
+    may_sample_lights = may_sample_lights && !(bsdf.lambertian() && only_even_light(lane));
     if (may_sample_lights && !results_ && !lane.caustic.scattered) {
       // What it cost to come here is spread over several light samples.
       lane.light_samples = stop_light_samples;
@@ -742,6 +786,26 @@ class PathStream {
   std::optional<Stop>& stop_of(const Lane& lane) { return stops_[number_of(lane)]; }
 
   std::optional<Fork>& fork_of(const Lane& lane) { return forks_[number_of(lane)]; }
+
+  // Leaves out of the shadow ray's light what the diffuse lobe makes of the environment's even
+  // part. diffuse: what the lobe makes of all of that radiance.
+  void take_even(Lane& lane, const Color& diffuse, const Color& radiance) const {
+    const Color even = diffuse * (1.0f - t_.lights_.environment().peak_share(radiance));
+    lane.shadow_light[0] -= even;
+    for (int c = 0; c < 3; ++c)
+      lane.shadow_light[0][c] = std::max(0.0f, lane.shadow_light[0][c]);  // of rounding
+    if (t_.scene_.has_filters()) lane.shadow_even = even;
+  }
+
+  bool any_shadow_light(const Lane& lane) const {
+    const auto terms = [](const Color& light, Term term) {
+      return is_black(light) ? 0u : reachable_terms(term);
+    };
+    return ((terms(lane.shadow_light[0], lane.shadow_term[0]) |
+             terms(lane.shadow_even, lane.shadow_term[0]) |
+             terms(lane.shadow_light[1], lane.shadow_term[1])) &
+            terms_) != 0;
+  }
 
   // What lobes that are not cached bring is most of the noise where other light is; delta lobes
   // have one way to go.
@@ -793,6 +857,12 @@ class PathStream {
     lane.add(lane.term, lane.throughput * environment.radiance(lane.direction) * weight);
   }
 
+  void add_even_environment(Lane& lane) {
+    const EnvironmentLight& environment = t_.lights_.environment();
+    const Color radiance = environment.radiance(lane.direction);
+    lane.add(lane.term, radiance * (1.0f - environment.peak_share(radiance)));
+  }
+
   void add_emission(Lane& lane, const SurfacePoint& point, const Color& emission) {
     if (lane.probe && !lane.probe_bent) return;
     if (lane.caustic.left_to_light_paths() && t_.lights_.light_traced(point)) return;
@@ -842,6 +912,7 @@ class PathStream {
       arriving *= volume_transmittance(*medium, light.distance);
     lane.shadow_term[0] = after_event(lane.term, LobeKind::diffuse);
     lane.shadow_term[1] = after_event(lane.term, LobeKind::specular);
+    lane.shadow_even = Color(0.0f);
     if (bsdf.lambertian()) {  // the same as below, in a fraction of its time
       const float cosine = light.direction.dot(bsdf.normal());
       if (cosine <= 0.0f || light.direction.dot(point.geometric_normal) <= 0.0f) return;
@@ -850,21 +921,20 @@ class PathStream {
           power_heuristic(light.pdf, (alone ? sky_trials : trials) * cosine * inv_pi);
       lane.shadow_light[0] = arriving * bsdf.diffuse_brdf(light.direction) * (cosine * weight);
       lane.shadow_light[1] = Color(0.0f);
+      if (lane.even_cached && light.environment)
+        take_even(lane, lane.shadow_light[0], light.radiance);
     } else {
       add_scattered(lane, bsdf, scattered, light, arriving, trials, sky_trials, alone_kinds);
     }
-    const std::uint32_t found =
-        (is_black(lane.shadow_light[0]) ? 0u : reachable_terms(lane.shadow_term[0])) |
-        (is_black(lane.shadow_light[1]) ? 0u : reachable_terms(lane.shadow_term[1]));
-    lane.shadow = (found & terms_) != 0;
+    lane.shadow = any_shadow_light(lane);
     lane.shadow_origin = offset_origin(point, light.direction);
     lane.shadow_target = light.target;
   }
 
   // What the lobes of any surface make of a light sample.
-  static void add_scattered(Lane& lane, const Bsdf& bsdf, const Bsdf& scattered,
-                            const LightSample& light, const Color& arriving, float trials,
-                            float sky_trials, std::uint32_t alone_kinds) {
+  void add_scattered(Lane& lane, const Bsdf& bsdf, const Bsdf& scattered, const LightSample& light,
+                     const Color& arriving, float trials, float sky_trials,
+                     std::uint32_t alone_kinds) const {
     const BsdfValue f = bsdf.eval(light.direction);
     const BsdfValue competing = &scattered == &bsdf ? f : scattered.eval(light.direction);
     const auto weighted = [&](LobeKind kind) {
@@ -875,9 +945,11 @@ class PathStream {
                 : trials * competing.pdf_of(kind);
       return f.of(kind) * power_heuristic(light.pdf, other);
     };
-    lane.shadow_light[0] = arriving * (weighted(LobeKind::diffuse) + weighted(LobeKind::broad) +
-                                       weighted(LobeKind::glossy));
+    const Color diffuse = arriving * weighted(LobeKind::diffuse);
+    lane.shadow_light[0] =
+        diffuse + arriving * (weighted(LobeKind::broad) + weighted(LobeKind::glossy));
     lane.shadow_light[1] = arriving * weighted(LobeKind::specular);
+    if (lane.even_cached && light.environment) take_even(lane, diffuse, light.radiance);
   }
 
   void scatter(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
@@ -976,6 +1048,7 @@ class PathStream {
   MediumStack gather_media_;
   std::uint32_t gather_seed_ = 0;
   std::vector<GatherResult>* results_ = nullptr;
+  const Term gathered_ = Term::indirect;
   RenderStatistics& statistics_;
 
   DrawnNumbers drawn_[lane_count / 8];
@@ -1018,9 +1091,9 @@ void PathTracer::render_ranges(const Tile& tile, const std::vector<SampleRange>&
 
 void PathTracer::gather(const std::vector<GatherRay>& rays, const MediumStack& media,
                         std::uint32_t seed, std::vector<GatherResult>& results,
-                        RenderStatistics& statistics, const CacheUse& cache) const {
+                        RenderStatistics& statistics, const CacheUse& cache, Term term) const {
   results.resize(rays.size(), GatherResult());
-  PathStream stream(*this, rays, media, seed, results, statistics, cache);
+  PathStream stream(*this, rays, media, seed, results, statistics, cache, term);
   stream.run();
 }
 

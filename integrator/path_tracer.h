@@ -58,7 +58,7 @@ struct GatherRay {
   std::uint32_t index = 0;  // of its random numbers
 };
 struct GatherResult {
-  Color radiance{0.0f};   // that belongs to the surface's indirect term, cd·m⁻²
+  Color radiance{0.0f};   // that belongs to the term asked for, cd·m⁻²
   float distance = 0.0f;  // to what is hit first, scene units; +inf: nothing
 };
 
@@ -72,18 +72,22 @@ struct RecordRequest {
 // indirect light is taken from it, and the path goes on by other lobes alone.
 struct CacheUse {
   const IrradianceCache* indirect = nullptr;  // null: none is used
+  // The direct light of the environment's even part (EnvironmentLight), where there is indirect
+  // light; null: none is used.
+  const IrradianceCache* direct = nullptr;
   // Instead of it: light of broad lobes too, by the paper's criteria.
   const PaperCache* paper = nullptr;
   float budget = 0.0f;  // scene units² (IrradianceCache)
   float needed_weight = 0.0f;
   // Where to note what was not found; null: paths go on there as if there were no cache.
   std::vector<RecordRequest>* requests = nullptr;
+  Term requested = Term::indirect;  // or direct
   std::vector<PaperPoint>* paper_requests = nullptr;
   float spread = 0.0f;  // gathering: angle between neighbouring paths, radians
   // What light paths bring, in place of what they would add to the picture; null: nothing.
   const PhotonMap* photons = nullptr;
 
-  bool any() const { return indirect || paper; }
+  bool any() const { return indirect || direct || paper; }
   bool asks() const { return requests || paper_requests; }
 };
 
@@ -106,10 +110,11 @@ class PathTracer {
                      const CacheUse& cache = {}) const;
 
   // Traces rays that left a diffuse surface inside media; results: one for each ray. Depends on
-  // nothing else. seed: of the random numbers.
+  // nothing else. seed: of the random numbers. term: indirect, all of it; or direct, of the
+  // environment's even part alone.
   void gather(const std::vector<GatherRay>& rays, const MediumStack& media, std::uint32_t seed,
               std::vector<GatherResult>& results, RenderStatistics& statistics,
-              const CacheUse& cache = {}) const;
+              const CacheUse& cache = {}, Term term = Term::indirect) const;
 
  private:
   friend class PathStream;

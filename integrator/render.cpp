@@ -16,6 +16,7 @@
 #include "integrator/light_tracer.h"
 #include "integrator/paper_builder.h"
 #include "integrator/parallel.h"
+#include "integrator/partition.h"
 #include "integrator/path_tracer.h"
 #include "integrator/sampling.h"
 
@@ -339,13 +340,16 @@ class ErrorEstimate {
 // One render from the first pass to the last.
 class StillRender {
  public:
-  // builder, paper_builder: at most one of them; both null: no cache is used.
+  // builder, paper_builder: at most one of them; both null: no cache is used. direct_builder:
+  // beside builder, or null.
   StillRender(const TracedScene& scene, const PathTracer& tracer, const LightTracer& light_tracer,
-              CacheBuilder* builder, PaperBuilder* paper_builder, const RenderSettings& settings,
-              RenderStatistics& statistics, const ProgressCallback& progress)
+              CacheBuilder* builder, CacheBuilder* direct_builder, PaperBuilder* paper_builder,
+              const RenderSettings& settings, RenderStatistics& statistics,
+              const ProgressCallback& progress)
       : tracer_(tracer),
         light_tracer_(light_tracer),
         builder_(builder),
+        direct_builder_(direct_builder),
         paper_builder_(paper_builder),
         settings_(settings),
         statistics_(statistics),
@@ -446,12 +450,26 @@ class StillRender {
       paper_builder_->build(go_on, statistics_);
       cache_use_ = paper_builder_->use();
     } else {
+      if (direct_builder_) build_direct_cache(tiles, error, go_on);
       builder_->set_error(error);
       builder_->set_photons(photons());
+      builder_->set_direct(direct_builder_ ? direct_builder_->use().direct : nullptr);
       builder_->build(tiles, go_on, statistics_);
       cache_use_ = builder_->use();
     }
     statistics_.seconds_cache += seconds_since(begin);
+  }
+
+  // If it pays.
+  void build_direct_cache(const std::vector<Tile>& tiles, double error,
+                          const std::function<bool()>& go_on) {
+    direct_builder_->set_error(error);
+    if (!direct_tried_ && !direct_builder_->try_out(tiles, go_on, statistics_)) {
+      direct_builder_ = nullptr;
+      return;
+    }
+    direct_tried_ = true;
+    direct_builder_->build(tiles, go_on, statistics_);
   }
 
   // As many samples as an even pass would take, where they reduce relMSE most: a pixel should have
@@ -639,6 +657,8 @@ class StillRender {
   const PathTracer& tracer_;
   const LightTracer& light_tracer_;
   CacheBuilder* const builder_;
+  CacheBuilder* direct_builder_;
+  bool direct_tried_ = false;
   PaperBuilder* const paper_builder_;
   CacheUse cache_use_;
   double picture_error_ = -1.0;
@@ -680,8 +700,12 @@ Framebuffer render(const Scene& scene, const Camera& camera, const RenderSetting
     const LightTracer light_tracer(traced, lights, view, settings, casters);
     const PathTracer tracer(traced, lights, view, settings);
     statistics.seconds_prepare = seconds_since(start);
-    IrradianceCache cache(traced, settings.validity_parts, settings.cache_bytes);
-    std::optional<CacheBuilder> builder;
+    const bool direct = settings.validity_parts.direct_cache && !lights.environment().black() &&
+                        (settings.terms & (term_bit(Term::direct) | term_bit(Term::indirect))) != 0;
+    const std::uint64_t cache_bytes = settings.cache_bytes / (direct ? 2 : 1);
+    IrradianceCache cache(traced, settings.validity_parts, cache_bytes);
+    IrradianceCache direct_cache(traced, settings.validity_parts, cache_bytes);
+    std::optional<CacheBuilder> builder, direct_builder;
     PaperCache paper_cache(settings.paper, settings.cache_bytes);
     std::optional<PaperBuilder> paper_builder;
     if (settings.integrator == Integrator::light_vectors) {
@@ -689,13 +713,16 @@ Framebuffer render(const Scene& scene, const Camera& camera, const RenderSetting
         paper_builder.emplace(tracer, traced, settings, paper_cache);
       } else {
         builder.emplace(tracer, traced, settings, cache);
+        if (direct) direct_builder.emplace(tracer, traced, settings, direct_cache, Term::direct);
       }
     }
     StillRender still(traced, tracer, light_tracer, builder ? &*builder : nullptr,
+                      direct_builder ? &*direct_builder : nullptr,
                       paper_builder ? &*paper_builder : nullptr, settings, statistics, progress);
     still.run();
-    statistics.records = cache.size() + paper_cache.size();
-    statistics.cache_bytes = cache.bytes() + paper_cache.bytes() + still.photon_bytes();
+    statistics.records = cache.size() + direct_cache.size() + paper_cache.size();
+    statistics.cache_bytes =
+        cache.bytes() + direct_cache.bytes() + paper_cache.bytes() + still.photon_bytes();
     result = still.film().resolve(traced.origin());
   });
   return result;

@@ -44,13 +44,17 @@ struct PaperParameters {
   int max_records = 0;  // no more are made, to compare at equal numbers; 0: no limit
 };
 
-// Parts of the hessian validity that can be left out, so that their worth can be measured.
+// Parts of the hessian validity that can be left out or added, so that their worth can be measured.
 struct ValidityParts {
   bool hessian = true;          // radii by second derivatives; else by distances alone
   bool gradient = true;         // extrapolation by first derivatives
   bool neighbour_clamp = true;  // radii differ by no more than the distance between records
   bool leak_guard = true;       // visibility tests toward records behind near obstacles
   bool footprint_clamp = true;  // no radius below the pixels' size
+  // Caches the direct light of the environment's even part. At 256 × 256 under a grey sky that
+  // takes a quarter from the direct layer's error with 16 samples a pixel, for a fifth more time:
+  // sampling pays better, but for pictures of very few samples.
+  bool direct_cache = false;
 };
 
 // Pixel reconstruction filters, all positive: samples are drawn from the filter, so pixels stay

@@ -168,6 +168,7 @@ void add_cache_options(CLI::App& app, RenderSettings& settings) {
   part("--no-neighbour-clamp", settings.validity_parts.neighbour_clamp);
   part("--no-leak-guard", settings.validity_parts.leak_guard);
   part("--no-footprint-clamp", settings.validity_parts.footprint_clamp);
+  app.add_flag("--direct-cache", settings.validity_parts.direct_cache)->group(hidden);
 }
 
 void add_sampling_options(CLI::App& app, RenderSettings& settings) {
