@@ -180,8 +180,8 @@ TEST_F(Command, RefusesBadValues) {
   expect({"--integrator", "paht"}, "--integrator: there is no 'paht'; did you mean 'path'?");
   expect({"--integrator", "light-vectors", "--validity", "papr"},
          "--validity: there is no 'papr'; did you mean 'paper'?");
-  expect({"--validity", "paper"},
-         "--validity: path keeps no records; add --integrator light-vectors");
+  expect({"--integrator", "path", "--validity", "paper"},
+         "--validity: path keeps no records; leave out --integrator path");
   expect({"--paper-needed", "0"},
          "--paper-needed: 0 is out of range; give a number from 1 to 1073741824");
   expect({"--exposure", "bright"}, "--exposure: 'bright' is not a number");

@@ -25,6 +25,7 @@ struct RenderOptions {
   std::vector<std::filesystem::path> outputs;
   std::optional<PictureSize> size;  // none: from the camera's aspect
   RenderSettings settings;
+  RenderOptions() { settings.integrator = Integrator::light_vectors; }
 
   // A file, "sky" (built in) or "none"; empty: the scene's own, or the sky where nothing shines.
   std::filesystem::path environment;

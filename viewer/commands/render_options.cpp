@@ -73,8 +73,8 @@ void add_light_options(CLI::App& app, RenderOptions& options) {
   RenderSettings& settings = options.settings;
   add_value_option(
       app, "--integrator", "NAME",
-      "How light is computed: path (unbiased) or light-vectors (indirect light cached) "
-      "[path]",
+      "How light is computed: light-vectors (indirect light and caustics cached) or path "
+      "(unbiased, slower) [light-vectors]",
       [&options](const std::string& text) {
         const std::string word = parse_word("--integrator", text, {"path", "light-vectors"});
         options.settings.integrator = word == "path" ? Integrator::path : Integrator::light_vectors;
@@ -225,7 +225,7 @@ void check_render_options(const CLI::App& app, const RenderOptions& options) {
     throw UsageError("--half, --float: contradict each other; give one of them");
   }
   if (app.count("--validity") && options.settings.integrator != Integrator::light_vectors) {
-    throw UsageError("--validity: path keeps no records; add --integrator light-vectors");
+    throw UsageError("--validity: path keeps no records; leave out --integrator path");
   }
   for (const char* option : {"--environment-strength", "--environment-rotation"}) {
     if (app.count(option) && (options.environment.empty() || options.environment == "none")) {
