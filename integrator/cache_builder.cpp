@@ -112,7 +112,8 @@ std::uint32_t CacheBuilder::record_seed(std::uint32_t record, std::uint32_t roun
 }
 
 std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles, int stride,
-                                                 float weight, RenderStatistics& statistics) const {
+                                                 int phase, float weight,
+                                                 RenderStatistics& statistics) const {
   std::vector<std::vector<RecordRequest>> found(tiles.size());
   std::mutex mutex;
   for_each(tiles.size(), [&](std::size_t i) {
@@ -124,7 +125,8 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
     std::vector<SampleRange> pixels;
     for (int y = 0; y < tile.height; ++y) {
       for (int x = 0; x < tile.width; ++x) {
-        if ((tile.x + x) % stride != stride / 2 || (tile.y + y) % stride != stride / 2) continue;
+        if ((tile.x + x) % stride != phase % stride || (tile.y + y) % stride != phase / stride)
+          continue;
         pixels.push_back({static_cast<std::uint32_t>(y * tile.width + x), 0, 1});
       }
     }
@@ -200,7 +202,8 @@ bool CacheBuilder::fill(const std::vector<Tile>& tiles, int stride, int last_str
                         const std::function<bool()>& go_on, RenderStatistics& statistics) {
   for (; stride >= last_stride; stride /= 2) {
     cache_.commit(budget_);
-    std::vector<RecordRequest> requests = collect(tiles, stride, weight, statistics);
+    std::vector<RecordRequest> requests =
+        collect(tiles, stride, stride / 2 * (stride + 1), weight, statistics);
     if (!make_records(requests, weight, go_on, statistics)) return false;
   }
   return true;
@@ -211,6 +214,15 @@ bool CacheBuilder::build(const std::vector<Tile>& tiles, const std::function<boo
   return fill(tiles, first_stride, 1, wanted_weight, go_on, statistics) &&
          refine(go_on, statistics) && fill(tiles, 1, 1, gap_weight, go_on, statistics) &&
          refine(go_on, statistics);
+}
+
+bool CacheBuilder::extend(const std::vector<Tile>& tiles, int stride, int phase,
+                          const std::function<bool()>& go_on, RenderStatistics& statistics) {
+  std::vector<RecordRequest> requests = collect(tiles, stride, phase, wanted_weight, statistics);
+  const std::uint32_t before = cache_.size();
+  const bool all = make_records(requests, wanted_weight, go_on, statistics);
+  if (cache_.size() != before) cache_.commit(budget_);
+  return all && refine(go_on, statistics);
 }
 
 bool CacheBuilder::try_out(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
@@ -230,7 +242,7 @@ bool CacheBuilder::try_out(const std::vector<Tile>& tiles, const std::function<b
 
 bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& statistics) {
   constexpr std::size_t group = 64;
-  std::vector<IrradianceRecord> refined;
+  std::array<IrradianceRecord, group> refined;
   std::mutex mutex;
   while (true) {
     std::vector<std::uint32_t> wanting;
@@ -246,24 +258,27 @@ bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& 
       if (r.passes < passes_ || noisy) wanting.push_back(i);
     }
     if (wanting.empty()) break;
-    // Paths end in the records of the round before, which are replaced when all are done: what a
-    // round brings does not depend on the order in which it is made.
+    // Paths end in records that are replaced when the group's are done: what a group brings does
+    // not depend on the order in which it is made.
     cache_.commit(budget_);
     const CacheUse ends = path_ends();
-    refined.assign(wanting.size(), IrradianceRecord());
     for (std::size_t first = 0; first < wanting.size(); first += group) {
-      if (!go_on()) return false;
-      for_each(std::min(group, wanting.size() - first), [&](std::size_t i) {
+      if (!go_on()) {
+        cache_.rebuild();
+        return false;
+      }
+      const std::size_t count = std::min(group, wanting.size() - first);
+      for_each(count, [&](std::size_t i) {
         const std::uint32_t index = wanting[first + i];
         RenderStatistics counts;
         IrradianceRecord record = cache_.record(index);
         gather_->refine(record, places_[index], cells_, record_seed(index, 1), counts, ends);
-        refined[first + i] = record;
+        refined[i] = record;
         const std::lock_guard lock(mutex);
         statistics.add_counts(counts);
       });
+      for (std::size_t i = 0; i < count; ++i) cache_.edit(wanting[first + i]) = refined[i];
     }
-    for (std::size_t i = 0; i < wanting.size(); ++i) cache_.edit(wanting[i]) = refined[i];
   }
   cache_.rebuild();
   return true;

@@ -42,6 +42,12 @@ class CacheBuilder {
   bool build(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
              RenderStatistics& statistics);
 
+  // For a view that changes: makes records that every stride-th pixel lacks, in both directions,
+  // from pixel `phase` of each such block on, row by row. Then, while time is left, what refine()
+  // does. As build().
+  bool extend(const std::vector<Tile>& tiles, int stride, int phase,
+              const std::function<bool()>& go_on, RenderStatistics& statistics);
+
   // How pixels use the cache.
   CacheUse use() const;
 
@@ -54,7 +60,7 @@ class CacheBuilder {
   std::uint32_t record_seed(std::uint32_t record, std::uint32_t round) const;
   // Where paths that gather light may end.
   CacheUse path_ends() const;
-  std::vector<RecordRequest> collect(const std::vector<Tile>& tiles, int stride,
+  std::vector<RecordRequest> collect(const std::vector<Tile>& tiles, int stride, int phase,
                                      float wanted_weight, RenderStatistics& statistics) const;
   bool make_records(std::vector<RecordRequest>& requests, float wanted_weight,
                     const std::function<bool()>& go_on, RenderStatistics& statistics);

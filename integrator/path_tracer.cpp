@@ -9,14 +9,13 @@
 #include "integrator/caustic_state.h"
 #include "integrator/media.h"
 #include "integrator/partition.h"
+#include "integrator/ray_packet.h"
 #include "integrator/sampling.h"
 #include "integrator/sobol.h"
 
 namespace lumivec {
 namespace {
 
-// Rays are traced in packets of so many.
-constexpr int packet_size = 8;
 // Paths take turns: all are traced, then all shaded, so that each piece of code stays in the
 // instruction cache for a while and packets are full. On the Cornell box 4 to 12 packets take some
 // 5% less time than one.
@@ -389,37 +388,6 @@ class PathStream {
     }
   }
 
-  // Some of Embree's packet kernels look at rays that are not valid: they must be empty.
-  static void disable(RTCRay8& rays, int i) {
-    rays.org_x[i] = rays.org_y[i] = rays.org_z[i] = 0.0f;
-    rays.dir_x[i] = rays.dir_y[i] = 0.0f;
-    rays.dir_z[i] = 1.0f;
-    rays.tnear[i] = 0.0f;
-    rays.tfar[i] = -1.0f;
-  }
-
-  // What Embree does not change.
-  static void set_constants(RTCRay8& rays) {
-    for (int i = 0; i < packet_size; ++i) {
-      rays.time[i] = 0.0f;
-      rays.mask[i] = ~0u;
-      rays.id[i] = static_cast<unsigned>(i);
-      rays.flags[i] = 0;
-    }
-  }
-
-  static void set(RTCRay8& rays, int i, const V3f& origin, const V3f& direction, float near,
-                  float far) {
-    rays.org_x[i] = origin.x;
-    rays.org_y[i] = origin.y;
-    rays.org_z[i] = origin.z;
-    rays.dir_x[i] = direction.x;
-    rays.dir_y[i] = direction.y;
-    rays.dir_z[i] = direction.z;
-    rays.tnear[i] = near;
-    rays.tfar[i] = far;
-  }
-
   // Lanes of one packet: their numbers, and how many they are.
   struct Packet {
     std::array<int, packet_size> lanes;
@@ -447,14 +415,6 @@ class PathStream {
     return query;
   }
 
-  // The rays of a packet that are valid; the others are emptied.
-  static void complete(const Packet& packet, RTCRay8& rays, int* valid) {
-    for (int i = 0; i < packet_size; ++i) {
-      valid[i] = i < packet.size ? -1 : 0;
-      if (i >= packet.size) disable(rays, i);
-    }
-  }
-
   void trace() {
     in_packets([](const Lane& lane) { return lane.active; },
                [this](const Packet& packet) { trace(packet); });
@@ -462,12 +422,10 @@ class PathStream {
 
   void trace(const Packet& packet) {
     alignas(32) int valid[packet_size];
-    complete(packet, rays_.ray, valid);
+    set_valid(rays_.ray, packet.size, valid);
     for (int i = 0; i < packet.size; ++i) {
       const Lane& lane = lanes_[packet.lanes[i]];
-      set(rays_.ray, i, lane.origin, lane.direction, lane.near, lane.far);
-      rays_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      rays_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+      set_ray(rays_, i, lane.origin, lane.direction, lane.near, lane.far);
       ++(lane.camera_ray ? statistics_.rays_camera : statistics_.rays_scatter);
     }
     TraceQuery query = query_of(packet);
@@ -485,10 +443,11 @@ class PathStream {
 
   void trace_shadows(const Packet& packet) {
     alignas(32) int valid[packet_size];
-    complete(packet, shadow_rays_, valid);
+    set_valid(shadow_rays_, packet.size, valid);
     for (int i = 0; i < packet.size; ++i) {
       const Lane& lane = lanes_[packet.lanes[i]];
-      set(shadow_rays_, i, lane.shadow_origin, lane.shadow_target - lane.shadow_origin, 0.0f, 1.0f);
+      set_ray(shadow_rays_, i, lane.shadow_origin, lane.shadow_target - lane.shadow_origin, 0.0f,
+              1.0f);
       transmittance_[i] = Color(1.0f);
       passed_thin_[i] = 0;
       ++statistics_.rays_shadow;
@@ -1010,7 +969,7 @@ class PathStream {
       finite = false;
       ++statistics_.dropped[i];
     }
-    if (lane.sample == 0) {
+    if (lane.sample == sums.first_sample) {
       sums.position = lane.position;
       sums.depth = lane.hit_depth;
       sums.object = lane.object;

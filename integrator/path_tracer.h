@@ -35,6 +35,7 @@ struct PixelSums {
       std::numeric_limits<float>::infinity();  // of the first sample; +inf: nothing was hit
   std::int32_t object = -1;
   std::uint32_t samples = 0;
+  std::uint32_t first_sample = 0;  // whose position, depth and object are kept
   float squares = 0.0f;         // of the samples' brightness, the mean of the channels of all terms
   float traced_squares = 0.0f;  // likewise without what photons brought
   float photons = 0.0f;         // the samples' brightness that photons brought

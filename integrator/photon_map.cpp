@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "integrator/frame.h"
+#include "integrator/ray_packet.h"
 #include "integrator/sampling.h"
 #include "integrator/sobol.h"
 
@@ -26,25 +27,6 @@ constexpr float least_normal_cosine = 0.7f;
 constexpr float least_cosine = 0.05f;
 // Edges are looked for so far above and below the surface, in radii.
 constexpr float edge_height = 0.1f;
-
-// Whatever is not traced must hold a harmless ray.
-void set_ray(RTCRayHit8& rays, int i, const V3f& origin, const V3f& direction, float far) {
-  RTCRay8& ray = rays.ray;
-  ray.org_x[i] = origin.x;
-  ray.org_y[i] = origin.y;
-  ray.org_z[i] = origin.z;
-  ray.dir_x[i] = direction.x;
-  ray.dir_y[i] = direction.y;
-  ray.dir_z[i] = direction.z;
-  ray.tnear[i] = 0.0f;
-  ray.tfar[i] = far;
-  ray.time[i] = 0.0f;
-  ray.mask[i] = ~0u;
-  ray.id[i] = static_cast<unsigned>(i);
-  ray.flags[i] = 0;
-  rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-  rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-}
 
 // Epanechnikov's kernel, of squared distance over squared radius; its integral over the disc is 1
 // times the disc's area.
@@ -83,13 +65,14 @@ void PhotonMap::find_edges(const PhotonQuery& query, const Frame& frame, float r
   std::uint32_t seeds[directions];
   V3f along[directions];
   RTCRayHit8 rays;
+  set_constants(rays.ray);
   const V3f above = query.position + frame.n * height;
   for (int i = 0; i < directions; ++i) {
     const V2f c = unit_circle((static_cast<float>(i) + turn) / directions);
     along[i] = frame.t * c.x + frame.b * c.y;
     valid[i] = -1;
     seeds[i] = query.seed;
-    set_ray(rays, i, above, along[i], radius);
+    set_ray(rays, i, above, along[i], 0.0f, radius);
   }
   TraceQuery trace = scene_.query();
   trace.seeds = seeds;
@@ -99,7 +82,7 @@ void PhotonMap::find_edges(const PhotonQuery& query, const Frame& frame, float r
   const V3f below = query.position - frame.n * height;
   for (int i = 0; i < directions; ++i) {
     const float out = edges[std::size_t(i)];
-    set_ray(rays, i, below + along[i] * out, -along[i], out);
+    set_ray(rays, i, below + along[i] * out, -along[i], 0.0f, out);
   }
   embree::intersect8(valid, scene_.handle(), trace.context, rays);
   for (int i = 0; i < directions; ++i) {
