@@ -9,6 +9,7 @@
 #include "viewer/commands/compare.h"
 #include "viewer/commands/info.h"
 #include "viewer/commands/render.h"
+#include "viewer/commands/walk.h"
 #include "viewer/errors.h"
 #include "viewer/suggestion.h"
 #include "viewer/version.h"
@@ -45,10 +46,12 @@ struct Commands {
   CLI::App app{"Renders scenes with global illumination, split into five parts of the light.",
                "lumivec"};
   RenderOptions render_options;
+  WalkOptions walk_options;
   InfoOptions info_options;
   CompareOptions compare_options;
   std::string help_topic;
   CLI::App* render = nullptr;
+  CLI::App* walk = nullptr;
   CLI::App* info = nullptr;
   CLI::App* compare = nullptr;
   CLI::App* help = nullptr;
@@ -65,6 +68,14 @@ struct Commands {
         "Ctrl-C ends sampling and writes what there is (exit status 130); a second one quits.\n\n"
         "  lumivec render room.gltf -o room.exr -o room.png --spp 256\n"
         "  lumivec render room.gltf -o room.exr --error 2 --terms direct,indirect");
+    walk = app.add_subcommand("walk", "Move through a scene along a path, frame by frame");
+    add_walk_options(*walk, walk_options);
+    walk->footer(
+        "A file for --path: {\"keys\": [{\"eye\": [x, y, z], \"target\": [x, y, z]}, ...]}, and "
+        "if\n"
+        "wanted \"up\" and \"yfov\" (degrees) in each key.\n\n"
+        "  lumivec walk room.gltf --path orbit:60 --frames 60 -o frames\n"
+        "  lumivec walk room.gltf --path dolly:2 --reference truth --stats walk.json");
     info = app.add_subcommand("info", "Tell what a scene file holds");
     add_info_options(*info, info_options);
     info->footer("  lumivec info room.gltf --json");
@@ -75,13 +86,13 @@ struct Commands {
     help->add_option("COMMAND", help_topic, "The command to explain")->type_name("");
     // What nobody expects is looked at after parsing, to suggest what was meant.
     app.allow_extras();
-    for (CLI::App* command : {render, info, compare, help}) {
+    for (CLI::App* command : {render, walk, info, compare, help}) {
       command->allow_extras();
       command->group("Commands");
     }
   }
 
-  static std::vector<std::string> names() { return {"render", "info", "compare", "help"}; }
+  static std::vector<std::string> names() { return {"render", "walk", "info", "compare", "help"}; }
 };
 
 std::string without_dashes(const std::string& text) {
@@ -134,7 +145,8 @@ int explain(Commands& commands) {
                                                          CLI::AppFormatMode::Normal);
     return exit_success;
   }
-  for (CLI::App* command : {commands.render, commands.info, commands.compare, commands.help}) {
+  for (CLI::App* command :
+       {commands.render, commands.walk, commands.info, commands.compare, commands.help}) {
     if (command->get_name() != topic) continue;
     std::cout << command->help();
     return exit_success;
@@ -180,7 +192,7 @@ std::string quoted(const std::vector<std::string>& arguments) {
 
 int run(const std::vector<std::string>& arguments) {
   Commands commands;
-  commands.render_options.command = quoted(arguments);
+  commands.render_options.command = commands.walk_options.command = quoted(arguments);
   try {
     commands.app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
@@ -193,13 +205,18 @@ int run(const std::vector<std::string>& arguments) {
     throw UsageError(parse_error_text(error));
   }
 
-  for (CLI::App* command : {commands.render, commands.info, commands.compare, commands.help}) {
+  for (CLI::App* command :
+       {commands.render, commands.walk, commands.info, commands.compare, commands.help}) {
     if (*command) refuse_extras(*command, command->get_name());
   }
   if (*commands.help) return explain(commands);
   if (*commands.render) {
     check_render_options(*commands.render, commands.render_options);
     return run_render(commands.render_options);
+  }
+  if (*commands.walk) {
+    check_walk_options(*commands.walk, commands.walk_options);
+    return run_walk(commands.walk_options);
   }
   if (*commands.info) {
     check_info_options(commands.info_options);

@@ -47,4 +47,25 @@ void add_display_options(CLI::App& app, bool& automatic_exposure, double& exposu
       ->group(group);
 }
 
+void add_environment_options(CLI::App& app, EnvironmentChoice& choice, const std::string& group) {
+  add_value_option(app, "--environment", "FILE|sky|none",
+                   "Latitude-longitude picture that replaces the scene's environment; sky: a plain "
+                   "one, built in [the scene's; sky if the scene holds no light]",
+                   [&choice](const std::string& text) { choice.name = text; })
+      ->group(group);
+  add_value_option(app, "--environment-strength", "X", "Factor of its radiance [1]",
+                   [&choice](const std::string& text) {
+                     constexpr double most = 1e9;
+                     choice.strength = parse_number("--environment-strength", text, 0.0, most);
+                   })
+      ->group(group);
+  add_value_option(app, "--environment-rotation", "DEGREES",
+                   "Its turn about +Y, counter-clockwise seen from above [0]",
+                   [&choice](const std::string& text) {
+                     constexpr double most = 1e6;
+                     choice.rotation = parse_number("--environment-rotation", text, -most, most);
+                   })
+      ->group(group);
+}
+
 }  // namespace lumivec

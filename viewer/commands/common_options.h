@@ -8,6 +8,7 @@
 
 #include "loader/load_scene.h"
 #include "viewer/display_transform.h"
+#include "viewer/scene_input.h"
 
 namespace lumivec {
 
@@ -23,5 +24,8 @@ void add_scene_options(CLI::App& app, std::filesystem::path& file, LoadOptions& 
 // --exposure, --display, --view, --ocio.
 void add_display_options(CLI::App& app, bool& automatic_exposure, double& exposure,
                          DisplayOptions& options);
+
+// --environment and what turns it and makes it brighter.
+void add_environment_options(CLI::App& app, EnvironmentChoice& choice, const std::string& group);
 
 }  // namespace lumivec

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "integrator/render.h"
 #include "viewer/atomic_file.h"
@@ -81,74 +80,6 @@ void check_picture_size(const RenderOptions& options, const RenderSettings& sett
                        std::to_string(settings.height) + " takes " + format_bytes(bytes) +
                        " and this machine has " + format_bytes(memory) + "; choose a smaller one");
   }
-}
-
-// Whether anything lights the scene, or it needs no light. Unlit surfaces show themselves and light
-// nothing else.
-bool has_light(const Scene& scene) {
-  const auto shines = [](const Color& c) { return c != Color(0.0f); };
-  const Material usual;
-  const auto material_of = [&](const Instance& i) -> const Material& {
-    return i.material < 0 ? usual : scene.materials[std::size_t(i.material)];
-  };
-  const bool all_unlit = !scene.instances.empty() &&
-                         std::all_of(scene.instances.begin(), scene.instances.end(),
-                                     [&](const Instance& i) { return material_of(i).unlit; });
-  return shines(scene.environment.radiance) ||
-         std::any_of(scene.lights.begin(), scene.lights.end(),
-                     [&](const Light& light) { return shines(light.intensity); }) ||
-         std::any_of(scene.instances.begin(), scene.instances.end(),
-                     [&](const Instance& i) { return shines(material_of(i).emission); }) ||
-         all_unlit;
-}
-
-Scene load(const RenderOptions& options, Warnings& warnings) {
-  LoadReport report;
-  Scene scene = load_scene(options.scene_file, options.load, report);
-  for (const LoadWarning& warning : report.warnings) {
-    warnings.add(warning.where.empty() ? warning.message : warning.where + ": " + warning.message);
-  }
-  if (report.default_camera) {
-    warnings.add(options.scene_file.string() +
-                 ": has no camera; one that frames everything is used");
-  }
-  const auto strength = float(options.environment_strength);
-  const auto rotation = float(options.environment_rotation * std::numbers::pi / 180.0);
-  if (options.reads_environment()) {
-    load_environment(options.environment, strength, rotation, scene);
-  } else if (options.environment == "sky") {
-    set_built_in_sky(strength, rotation, scene);
-  } else if (options.environment == "none") {
-    scene.environment = Environment();
-  } else if (!has_light(scene)) {
-    warnings.add(options.scene_file.string() +
-                 ": holds no light; a plain sky lights it, or what --environment FILE says");
-    set_built_in_sky(strength, rotation, scene);
-  }
-  if (!has_light(scene)) {
-    warnings.add(options.scene_file.string() +
-                 ": holds no light, so that the picture is black; light it with --environment");
-  }
-  return scene;
-}
-
-const Camera& choose_camera(const Scene& scene, const std::string& wanted) {
-  if (wanted.empty()) return scene.cameras.front();
-  std::vector<std::string> names;
-  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
-  return scene.cameras[std::size_t(find_by_name_or_index("--camera", wanted, names, "camera"))];
-}
-
-// The picture's size where the user leaves it open.
-PictureSize size_for(const Camera& camera) {
-  constexpr int usual_height = 512;
-  double aspect = camera.aspect;
-  if (camera.kind == CameraKind::orthographic && !(aspect > 0.0)) {
-    aspect = double(camera.xmag) / double(camera.ymag);
-  }
-  if (!(aspect > 0.0) || !std::isfinite(aspect)) aspect = 1.0;
-  const double width = std::clamp(std::round(usual_height * aspect), 1.0, double(max_picture_side));
-  return {int(width), usual_height};
 }
 
 ProgressStyle progress_style(bool quiet) {
@@ -256,7 +187,8 @@ int run_render(const RenderOptions& options) {
     warnings.add("--exposure: changes displayed pictures alone, and there is none");
   }
 
-  const Scene scene = load(options, warnings);
+  const Scene scene = load_lit_scene(options.scene_file, options.load, options.environment,
+                                     [&](const std::string& warning) { warnings.add(warning); });
   const Camera& camera = choose_camera(scene, options.camera);
   report.scene_name = scene.name;
   report.camera = camera.name;

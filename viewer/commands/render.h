@@ -11,6 +11,7 @@
 #include "viewer/display_transform.h"
 #include "viewer/exr_layers.h"
 #include "viewer/option_values.h"
+#include "viewer/scene_input.h"
 
 namespace CLI {
 class App;
@@ -27,13 +28,7 @@ struct RenderOptions {
   RenderSettings settings;
   RenderOptions() { settings.integrator = Integrator::light_vectors; }
 
-  // A file, "sky" (built in) or "none"; empty: the scene's own, or the sky where nothing shines.
-  std::filesystem::path environment;
-  double environment_strength = 1.0;  // multiplies its radiance
-  double environment_rotation = 0.0;  // degrees
-  bool reads_environment() const {
-    return !environment.empty() && environment != "sky" && environment != "none";
-  }
+  EnvironmentChoice environment;
 
   bool automatic_exposure = false;
   double exposure = 0.0;  // stops

@@ -106,26 +106,7 @@ void add_light_options(CLI::App& app, RenderOptions& options) {
                          int(parse_whole("--max-depth", text, 0, std::numeric_limits<int>::max()));
                    })
       ->group(group);
-  add_value_option(app, "--environment", "FILE|sky|none",
-                   "Latitude-longitude picture that replaces the scene's environment; sky: a plain "
-                   "one, built in [the scene's; sky if the scene holds no light]",
-                   [&options](const std::string& text) { options.environment = text; })
-      ->group(group);
-  add_value_option(app, "--environment-strength", "X", "Factor of its radiance [1]",
-                   [&options](const std::string& text) {
-                     constexpr double most = 1e9;
-                     options.environment_strength =
-                         parse_number("--environment-strength", text, 0.0, most);
-                   })
-      ->group(group);
-  add_value_option(app, "--environment-rotation", "DEGREES",
-                   "Its turn about +Y, counter-clockwise seen from above [0]",
-                   [&options](const std::string& text) {
-                     constexpr double most = 1e6;
-                     options.environment_rotation =
-                         parse_number("--environment-rotation", text, -most, most);
-                   })
-      ->group(group);
+  add_environment_options(app, options.environment, group);
 }
 
 // The method of 2003 (paper_validity.h), for comparisons: not in --help.
@@ -228,7 +209,8 @@ void check_render_options(const CLI::App& app, const RenderOptions& options) {
     throw UsageError("--validity: path keeps no records; leave out --integrator path");
   }
   for (const char* option : {"--environment-strength", "--environment-rotation"}) {
-    if (app.count(option) && (options.environment.empty() || options.environment == "none")) {
+    if (app.count(option) &&
+        (options.environment.name.empty() || options.environment.name == "none")) {
       throw UsageError(std::string(option) +
                        ": there is no environment; add --environment FILE or --environment sky");
     }
@@ -247,7 +229,7 @@ void check_render_options(const CLI::App& app, const RenderOptions& options) {
   }
   if (!options.statistics.empty()) files.push_back(options.statistics);
   std::vector<fs::path> taken = {place(options.scene_file)};
-  if (options.reads_environment()) taken.push_back(place(options.environment));
+  if (options.environment.is_file()) taken.push_back(place(options.environment.name));
   const std::size_t inputs = taken.size();
   for (const fs::path& file : files) {
     const auto same = std::find(taken.begin(), taken.end(), place(file));

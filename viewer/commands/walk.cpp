@@ -1,0 +1,276 @@
+#include "viewer/commands/walk.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "integrator/render.h"
+#include "viewer/atomic_file.h"
+#include "viewer/errors.h"
+#include "viewer/exposure.h"
+#include "viewer/flip.h"
+#include "viewer/image_error.h"
+#include "viewer/interrupt.h"
+#include "viewer/json_text.h"
+#include "viewer/layered_image.h"
+#include "viewer/still_writer.h"
+#include "viewer/text_format.h"
+
+namespace fs = std::filesystem;
+
+namespace lumivec {
+namespace {
+
+struct FrameReport {
+  WalkEngine::Frame frame;
+  ImageError error;  // of the picture
+  double flip = 0.0;
+  std::array<ImageError, term_count> term_errors;
+};
+
+fs::path frame_file(const fs::path& folder, int frame, const char* extension) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "frame_%05d.%s", frame, extension);
+  return folder / name;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw CommandError(folder.string() + ": cannot be made: " + error.message());
+}
+
+// What tells one walk's reference frames from another's.
+nlohmann::json identity(const WalkOptions& options, const std::vector<Camera>& cameras, int width,
+                        int height) {
+  nlohmann::json views = nlohmann::json::array();
+  for (const Camera& c : {cameras.front(), cameras.back()}) {
+    nlohmann::json m;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 3; ++j) m.push_back(c.camera_to_world[i][j]);
+    }
+    views.push_back(m);
+  }
+  return {{"scene", fs::weakly_canonical(options.scene_file).string()},
+          {"frames", options.frames},
+          {"size", {width, height}},
+          {"environment", options.environment.name.string()},
+          {"views", views}};
+}
+
+// The folder is this walk's, or empty and becomes it.
+void claim_reference(const fs::path& folder, const nlohmann::json& identity) {
+  make_folder(folder);
+  const fs::path file = folder / "walk.json";
+  std::ifstream in(file);
+  if (in) {
+    if (nlohmann::json::parse(in, nullptr, false) != identity) {
+      throw CommandError(folder.string() +
+                         ": holds frames of another walk; choose another folder for --reference");
+    }
+    return;
+  }
+  if (!fs::is_empty(folder)) {
+    throw CommandError(folder.string() +
+                       ": is not empty and holds no walk; choose another folder for --reference");
+  }
+  write_text_atomically(file, json_text(identity));
+}
+
+class References {
+ public:
+  References(const WalkOptions& options, const Scene& scene, const RenderSettings& settings)
+      : options_(options), scene_(scene), settings_(settings) {
+    settings_.integrator = Integrator::path;
+    settings_.samples = options.reference_samples;
+    settings_.terms = (1u << term_count) - 1;
+    // Not the walk's random numbers: what shares its noise cannot be compared.
+    settings_.seed = settings.seed ^ 0x7265660003;
+  }
+
+  LayeredImage frame(int number, const Camera& camera) const {
+    const fs::path file = frame_file(options_.reference, number, "exr");
+    if (!fs::exists(file)) {
+      RenderStatistics statistics;
+      const Framebuffer picture = render(scene_, camera, settings_, statistics);
+      StillHeader header;
+      header.scene = options_.scene_file.string();
+      header.settings = options_.command;
+      header.samples = settings_.samples;
+      header.seconds = statistics.seconds_sample;
+      write_exr(file, picture, {settings_.terms, ExrPrecision::half}, header);
+    }
+    return read_layered_image(file);
+  }
+
+ private:
+  const WalkOptions& options_;
+  const Scene& scene_;
+  RenderSettings settings_;
+};
+
+void compare(const LayeredImage& reference, const Picture& picture, const WalkEngine& engine,
+             const WalkOptions& options, const DisplayTransform& display, FrameReport& report) {
+  Picture expected(picture.width, picture.height), layer(picture.width, picture.height);
+  for (std::size_t t = 0; t < term_count; ++t) {
+    const Picture& r = reference.layers.at(std::string(term_names[t]));
+    engine.layer(static_cast<Term>(t), layer.pixels);
+    report.term_errors[t] = image_error(layer, r);
+    if ((options.settings.terms & (1u << t)) == 0) continue;
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i) expected.pixels[i] += r.pixels[i];
+  }
+  report.error = image_error(picture, expected);
+  Picture shown = picture;
+  display.apply(shown, options.exposure);
+  display.apply(expected, options.exposure);
+  report.flip = mean(flip_map(expected, shown));
+}
+
+double percentile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+nlohmann::json frame_json(const FrameReport& report, bool compared) {
+  nlohmann::json json = {{"seconds", report.frame.seconds},
+                         {"traced", report.frame.traced},
+                         {"filled", report.frame.holes},
+                         {"mean_age", report.frame.mean_age},
+                         {"cache_hits", report.frame.cache_hits},
+                         {"cache_misses", report.frame.cache_misses}};
+  if (!compared) return json;
+  json["relmse"] = report.error.relmse;
+  json["flip"] = report.flip;
+  for (std::size_t t = 0; t < term_count; ++t)
+    json["terms"][std::string(term_names[t])] = report.term_errors[t].relmse;
+  return json;
+}
+
+// Of all frames but the first, which has nothing to go by.
+nlohmann::json summary(const std::vector<FrameReport>& reports, bool compared) {
+  std::vector<double> seconds, relmse, flip, traced;
+  for (std::size_t i = reports.size() > 1 ? 1 : 0; i < reports.size(); ++i) {
+    seconds.push_back(reports[i].frame.seconds);
+    traced.push_back(static_cast<double>(reports[i].frame.traced));
+    relmse.push_back(reports[i].error.relmse);
+    flip.push_back(reports[i].flip);
+  }
+  nlohmann::json json = {{"first_seconds", reports.front().frame.seconds},
+                         {"median_seconds", percentile(seconds, 0.5)},
+                         {"99th_percentile_seconds", percentile(seconds, 0.99)},
+                         {"median_traced", percentile(traced, 0.5)}};
+  if (compared) {
+    json["median_relmse"] = percentile(relmse, 0.5);
+    json["median_flip"] = percentile(flip, 0.5);
+    json["worst_flip"] = percentile(flip, 1.0);
+  }
+  return json;
+}
+
+}  // namespace
+
+int run_walk(const WalkOptions& options) {
+  const InterruptGuard interrupt;
+  std::vector<std::string> warnings;
+  std::optional<tbb::global_control> limit;
+  if (options.settings.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  std::size_t(options.settings.threads));
+  }
+  if (!options.statistics.empty()) check_writable(options.statistics);
+  if (!options.output.empty()) make_folder(options.output);
+  const DisplayTransform display(options.display);
+  const Scene scene = load_lit_scene(
+      options.scene_file, options.load, options.environment, [&](const std::string& warning) {
+        warnings.push_back(warning);
+        if (!options.quiet) std::cerr << "lumivec: warning: " << warning << '\n';
+      });
+  const Camera& camera = choose_camera(scene, options.camera);
+  RenderSettings settings = options.settings;
+  const PictureSize size = options.size ? *options.size : size_for(camera);
+  settings.width = size.width;
+  settings.height = size.height;
+
+  // What the eye looks at first is what an orbit goes around.
+  V3d pivot;
+  {
+    LiveTracer tracer(scene, [&] {
+      RenderSettings s = settings;
+      s.integrator = Integrator::path;
+      return s;
+    }());
+    tracer.set_view(camera, 1, 1);
+    std::vector<VisiblePoint> points;
+    tracer.see(points);
+    pivot = tracer.origin() + V3d(points[0].object >= 0 ? points[0].position : V3f(0.0f));
+  }
+  const std::vector<Camera> cameras = camera_path(options.path, camera, pivot, options.frames);
+  const bool compared = !options.reference.empty();
+  if (compared)
+    claim_reference(options.reference, identity(options, cameras, size.width, size.height));
+
+  RenderSettings traced = settings;
+  traced.terms = (1u << term_count) - 1;  // what is shown is chosen afterwards
+  WalkEngine engine(scene, traced, options.walk_mode);
+  const References references(options, scene, settings);
+  Picture picture(size.width, size.height);
+  double exposure = options.exposure;
+  std::vector<FrameReport> reports;
+  for (int i = 0; i < options.frames && !interrupt.requested(); ++i) {
+    const Camera& view = cameras[std::size_t(i)];
+    FrameReport report;
+    report.frame =
+        engine.advance(view, options.frame_time, options.settings.terms, picture.pixels);
+    if (i == 0 && options.automatic_exposure) exposure = automatic_exposure(picture.pixels);
+    if (compared)
+      compare(references.frame(i, view), picture, engine, options, display, report);
+    if (!options.output.empty()) {
+      Picture shown = picture;
+      display.apply(shown, exposure);
+      StillHeader header;
+      header.scene = options.scene_file.string();
+      header.settings = options.command;
+      write_displayed(frame_file(options.output, i, "png"), shown, {8, display.is_srgb()}, header);
+    }
+    reports.push_back(report);
+  }
+  if (reports.empty()) return exit_interrupted;
+
+  const nlohmann::json figures = summary(reports, compared);
+  if (!options.statistics.empty()) {
+    nlohmann::json frames = nlohmann::json::array();
+    for (const FrameReport& report : reports) frames.push_back(frame_json(report, compared));
+    write_text_atomically(
+        options.statistics,
+        json_text({{"command", options.command},
+                   {"mode", options.mode},
+                   {"size", {size.width, size.height}},
+                   {"frame_time", options.frame_time},
+                   {"summary", figures},
+                   {"records", engine.statistics().records},
+                   {"cache_bytes", engine.statistics().cache_bytes},
+                   {"warnings", warnings},
+                   {"frames", frames}}));
+  }
+  if (!options.quiet) {
+    std::printf("%zu frames, %s: first %.1f ms, median %.1f ms, 99%% %.1f ms; %.0f samples a frame\n",
+                reports.size(), options.mode.c_str(), 1e3 * double(figures["first_seconds"]),
+                1e3 * double(figures["median_seconds"]),
+                1e3 * double(figures["99th_percentile_seconds"]), double(figures["median_traced"]));
+    if (compared) {
+      std::printf("median relMSE %.4g, median FLIP %.4f, worst %.4f\n",
+                  double(figures["median_relmse"]), double(figures["median_flip"]),
+                  double(figures["worst_flip"]));
+    }
+    std::fflush(stdout);
+  }
+  return interrupt.requested() ? exit_interrupted : exit_success;
+}
+
+}  // namespace lumivec

@@ -1,0 +1,34 @@
+// A scene as the commands take it: loaded, lit, and seen by one of its cameras.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "loader/load_scene.h"
+#include "viewer/option_values.h"
+
+namespace lumivec {
+
+// What replaces the scene's environment.
+struct EnvironmentChoice {
+  // A file, "sky" (built in) or "none"; empty: the scene's own, or the sky where nothing shines.
+  std::filesystem::path name;
+  double strength = 1.0;  // multiplies its radiance
+  double rotation = 0.0;  // degrees
+
+  bool is_file() const { return !name.empty() && name != "sky" && name != "none"; }
+};
+
+// warn is called with one line for each thing that the user should know. Throws LoadError.
+Scene load_lit_scene(const std::filesystem::path& file, const LoadOptions& options,
+                     const EnvironmentChoice& environment,
+                     const std::function<void(const std::string&)>& warn);
+
+// wanted: a name or an index; empty: the first. Throws UsageError.
+const Camera& choose_camera(const Scene& scene, const std::string& wanted);
+
+// The picture's size where the user leaves it open.
+PictureSize size_for(const Camera& camera);
+
+}  // namespace lumivec

@@ -1,0 +1,108 @@
+#include "viewer/walk/walk_engine.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace lumivec {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Before any has been measured.
+constexpr double first_sample_seconds = 4e-6;
+// How much of what is known the last frame's measurement replaces.
+constexpr double learning = 0.3;
+// Of a frame's time for tracing, records have this share while there are some to make.
+constexpr double share_of_records = 0.4;
+// However slow a machine is, something happens in every frame.
+constexpr std::size_t fewest_samples = 256;
+
+RenderSettings with_integrator(RenderSettings settings, const WalkMode& mode) {
+  settings.integrator = mode.light_vectors ? Integrator::light_vectors : Integrator::path;
+  return settings;
+}
+
+bool same_view(const Camera& a, const Camera& b) {
+  return a.camera_to_world == b.camera_to_world && a.kind == b.kind && a.yfov == b.yfov &&
+         a.xmag == b.xmag && a.ymag == b.ymag && a.znear == b.znear && a.zfar == b.zfar;
+}
+
+}  // namespace
+
+WalkEngine::WalkEngine(const Scene& scene, const RenderSettings& settings, const WalkMode& mode)
+    : width_(settings.width),
+      height_(settings.height),
+      mode_(mode),
+      tracer_(scene, with_integrator(settings, mode)),
+      shading_(settings.width, settings.height),
+      sample_seconds_(first_sample_seconds) {}
+
+void WalkEngine::trace_all() {
+  requests_.clear();
+  for (std::size_t i = 0; i < seen_.size(); ++i)
+    requests_.push_back({static_cast<std::uint32_t>(i), frame_});
+  tracer_.trace(requests_, samples_);
+  shading_.add(samples_);
+}
+
+void WalkEngine::trace_within(double seconds) {
+  const Clock::time_point start = Clock::now();
+  const auto count = static_cast<std::size_t>(std::clamp(
+      seconds / sample_seconds_, static_cast<double>(fewest_samples),
+      static_cast<double>(width_) * static_cast<double>(height_)));
+  shading_.choose(count, requests_);
+  tracer_.trace(requests_, samples_);
+  shading_.add(samples_);
+  if (requests_.empty()) return;
+  const double each = seconds_since(start) / static_cast<double>(requests_.size());
+  sample_seconds_ += learning * (each - sample_seconds_);
+}
+
+WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, std::uint32_t terms,
+                                      std::vector<Color>& picture) {
+  const Clock::time_point start = Clock::now();
+  const RenderStatistics before = tracer_.statistics();
+  Frame frame;
+  const bool moved = !last_ || !same_view(*last_, camera);
+  last_ = camera;
+  tracer_.set_view(camera, width_, height_);
+  tracer_.see(seen_);
+  const VisiblePoint& middle =
+      seen_[std::size_t(height_ / 2) * std::size_t(width_) + std::size_t(width_ / 2)];
+  pivot_ = tracer_.origin() + V3d(middle.object >= 0 ? middle.position : V3f(0.0f));
+  if (mode_.reuse) {
+    shading_.see(tracer_, seen_, moved);
+    const double left = frame_time - seconds_since(start) - fixed_seconds_;
+    tracer_.improve(std::max(0.0, share_of_records * left));
+    trace_within(frame_time - seconds_since(start) - fixed_seconds_);
+  } else {
+    shading_ = ShadingCache(width_, height_);
+    std::vector<VisiblePoint> points = seen_;
+    shading_.see(tracer_, points, false);
+    tracer_.improve(share_of_records * frame_time);
+    trace_all();
+  }
+  const Clock::time_point traced = Clock::now();
+  shading_.resolve(terms, picture);
+  const double after = seconds_since(traced);
+  fixed_seconds_ += learning * (after - fixed_seconds_);
+  frame.seconds = seconds_since(start);
+  ++frame_;
+
+  frame.traced = samples_.size();
+  frame.holes = shading_.hole_count();
+  frame.mean_age = shading_.mean_age();
+  frame.cache_hits = tracer_.statistics().cache_hits - before.cache_hits;
+  frame.cache_misses = tracer_.statistics().cache_misses - before.cache_misses;
+  return frame;
+}
+
+V3d WalkEngine::pivot() const {
+  return pivot_;
+}
+
+}  // namespace lumivec

@@ -1,0 +1,66 @@
+// What a moving eye sees, frame by frame, each within a given time: the engine of the walk and of
+// the window.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "integrator/live_tracer.h"
+#include "viewer/walk/shading_cache.h"
+
+namespace lumivec {
+
+// How pixels get their light; with or without the shading cache, by path tracing or from light
+// vectors.
+struct WalkMode {
+  bool reuse = true;
+  bool light_vectors = true;
+};
+
+class WalkEngine {
+ public:
+  // scene must outlive this. settings: as LiveTracer's, with width and height. Throws RenderError.
+  WalkEngine(const Scene& scene, const RenderSettings& settings, const WalkMode& mode);
+
+  struct Frame {
+    double seconds = 0.0;        // to the picture
+    std::size_t traced = 0;      // samples
+    std::size_t holes = 0;       // pixels without a sample, filled from neighbours
+    double mean_age = 0.0;       // frames since pixels were traced
+    std::uint64_t cache_hits = 0, cache_misses = 0;
+  };
+
+  // The next frame. frame_time: what tracing and records may fill up, seconds; without reuse all
+  // pixels are traced, however long it takes. picture: radiance of those terms.
+  Frame advance(const Camera& camera, double frame_time, std::uint32_t terms,
+                std::vector<Color>& picture);
+
+  // One term of the last frame, without any tracing.
+  void layer(Term term, std::vector<Color>& pixels) const { shading_.resolve(term, pixels); }
+
+  // Where the eye looks: the point at the middle of the last frame, world space; the scene's middle
+  // if nothing is there.
+  V3d pivot() const;
+
+  const RenderStatistics& statistics() const { return tracer_.statistics(); }
+
+ private:
+  void trace_all();
+  void trace_within(double seconds);
+
+  const int width_, height_;
+  const WalkMode mode_;
+  LiveTracer tracer_;
+  ShadingCache shading_;
+  std::optional<Camera> last_;
+  std::uint32_t frame_ = 0;
+  double sample_seconds_;  // of one sample, as measured
+  double fixed_seconds_ = 0.005;  // of what is done once a frame after tracing, as measured
+  V3d pivot_{0.0};
+  std::vector<VisiblePoint> seen_;
+  std::vector<LiveRequest> requests_;
+  std::vector<LiveSample> samples_;
+};
+
+}  // namespace lumivec
