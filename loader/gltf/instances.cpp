@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "loader/gltf/extensions.h"
-#include "loader/gltf/transforms.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {

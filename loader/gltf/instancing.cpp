@@ -4,7 +4,7 @@
 
 #include "loader/gltf/extensions.h"
 #include "loader/gltf/instances.h"
-#include "loader/gltf/transforms.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {

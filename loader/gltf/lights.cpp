@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "loader/gltf/extensions.h"
-#include "loader/gltf/transforms.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loader/gltf/transforms.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {

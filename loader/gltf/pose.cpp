@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "loader/gltf/normals.h"
-#include "loader/gltf/transforms.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {

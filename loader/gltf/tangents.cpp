@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "loader/gltf/normals.h"
+#include "loader/surface_directions.h"
 
 namespace lumivec::gltf {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "loader/scene.h"
 
-namespace lumivec::gltf {
+namespace lumivec {
 
 bool is_finite(const M44d& m);
 
@@ -23,4 +23,4 @@ M44d compose(const V3d& translation, const double (&rotation)[4], const V3d& sca
 // a light is to take from a node. None if an axis has no direction.
 std::optional<M44d> rigid_part(const M44d& m);
 
-}  // namespace lumivec::gltf
+}  // namespace lumivec

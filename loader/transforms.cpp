@@ -1,8 +1,8 @@
-#include "loader/gltf/transforms.h"
+#include "loader/transforms.h"
 
 #include <cmath>
 
-namespace lumivec::gltf {
+namespace lumivec {
 namespace {
 
 V3d row(const M44d& m, int i) {
@@ -81,4 +81,4 @@ std::optional<M44d> rigid_part(const M44d& m) {
   return M44d(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, m[3][0], m[3][1], m[3][2], 1);
 }
 
-}  // namespace lumivec::gltf
+}  // namespace lumivec
