@@ -54,8 +54,9 @@ Flags pose_nodes(Scene& scene, std::span<const PlayedAnimation> played) {
   std::vector<RestTransform> transforms = scene.motion.rest;
   for_each_channel(scene, played, [&](const AnimationChannel& channel, double seconds) {
     if (channel.target == AnimationTarget::weights) return;
-    const auto it = std::lower_bound(transforms.begin(), transforms.end(), channel.node,
-                                     [](const RestTransform& t, int node) { return t.node < node; });
+    const auto it =
+        std::lower_bound(transforms.begin(), transforms.end(), channel.node,
+                         [](const RestTransform& t, int node) { return t.node < node; });
     if (it != transforms.end() && it->node == channel.node) set(channel, seconds, *it);
   });
   for (const RestTransform& t : transforms) {

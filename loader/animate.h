@@ -1,5 +1,5 @@
-// Plays the animations of a scene (glTF 2.0, section 3.11 and appendix C): nodes move shapes, lights
-// and cameras, morph weights and joints move vertices.
+// Plays the animations of a scene (glTF 2.0, section 3.11 and appendix C): nodes move shapes,
+// lights and cameras, morph weights and joints move vertices.
 //
 // A pose follows from the animations and times that are asked for, and from nothing before: what
 // none of them sets is at rest, as the file leaves it. The scene keeps what that takes (Motion in

@@ -30,8 +30,7 @@ Placement placement(const Imath::Box3d& bounds, const M44d& object_to_world) {
 M44d standing_frame(const M44d& node_to_world) {
   if (const auto frame = rigid_part(node_to_world)) return *frame;
   if (!is_finite(node_to_world)) return M44d();
-  return M44d().setTranslation(
-      V3d(node_to_world[3][0], node_to_world[3][1], node_to_world[3][2]));
+  return M44d().setTranslation(V3d(node_to_world[3][0], node_to_world[3][1], node_to_world[3][2]));
 }
 
 }  // namespace lumivec
