@@ -1,7 +1,9 @@
 #include "loader/animate.h"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
+#include <cstdint>
+#include <map>
 
 #include "loader/deform.h"
 #include "loader/keyframes.h"
@@ -17,7 +19,12 @@ using Flags = std::vector<std::uint8_t>;
 // Puts b in the place of a. Was there any difference? By bits, so that what is not finite compares
 // equal to itself.
 bool replace(M44d& a, const M44d& b) {
-  const bool differs = std::memcmp(&a, &b, sizeof(M44d)) != 0;
+  bool differs = false;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      differs |= std::bit_cast<std::uint64_t>(a[i][j]) != std::bit_cast<std::uint64_t>(b[i][j]);
+    }
+  }
   a = b;
   return differs;
 }
@@ -72,19 +79,25 @@ Flags pose_nodes(Scene& scene, std::span<const PlayedAnimation> played) {
   return moved;
 }
 
-// The weights of a deformation's targets in this pose.
-std::vector<float> pose_weights(const Scene& scene, const Deformation& deformation,
-                                std::span<const PlayedAnimation> played) {
-  std::vector<float> weights = deformation.rest_weights;
-  if (deformation.weights_node < 0) return weights;
+using WeightsByNode = std::map<int, std::vector<double>>;
+
+// The morph weights that are animated.
+WeightsByNode played_weights(const Scene& scene, std::span<const PlayedAnimation> played) {
+  WeightsByNode weights;
   for_each_channel(scene, played, [&](const AnimationChannel& channel, double seconds) {
-    if (channel.target != AnimationTarget::weights || channel.node != deformation.weights_node) {
-      return;
-    }
-    const std::vector<double> values = value_at(channel, seconds);
-    const std::size_t count = std::min(values.size(), weights.size());
-    for (std::size_t i = 0; i < count; ++i) weights[i] = to_float(values[i]);
+    if (channel.target != AnimationTarget::weights) return;
+    weights[channel.node] = value_at(channel, seconds);
   });
+  return weights;
+}
+
+// The weights of a deformation's targets in this pose.
+std::vector<float> pose_weights(const Deformation& deformation, const WeightsByNode& played) {
+  std::vector<float> weights = deformation.rest_weights;
+  const auto it = played.find(deformation.weights_node);
+  if (it == played.end()) return weights;
+  const std::size_t count = std::min(it->second.size(), weights.size());
+  for (std::size_t i = 0; i < count; ++i) weights[i] = to_float(it->second[i]);
   return weights;
 }
 
@@ -98,10 +111,11 @@ Flags pose_meshes(Scene& scene, std::span<const PlayedAnimation> played, const F
     return std::any_of(nodes.begin(), nodes.end(),
                        [&](int node) { return moved[static_cast<std::size_t>(node)] != 0; });
   };
+  const WeightsByNode animated_weights = played_weights(scene, played);
   Flags changed(motion.deformations.size(), 0);
   for (std::size_t i = 0; i < changed.size(); ++i) {
     Deformation& deformation = motion.deformations[i];
-    std::vector<float> weights = pose_weights(scene, deformation, played);
+    std::vector<float> weights = pose_weights(deformation, animated_weights);
     const bool skinned = deformation.skin >= 0;
     if (weights == deformation.weights && !(skinned && joints_moved(deformation.skin))) continue;
     changed[i] = 1;

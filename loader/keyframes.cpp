@@ -85,8 +85,8 @@ Numbers between(const AnimationChannel& channel, const Keys& keys, std::size_t k
     // A spline may pass through no rotation at all; it stays at the key before for that moment.
     return rotation && !(length(value) > 0.0) ? keys.value(key) : value;
   }
+  if (channel.interpolation == Interpolation::step) return keys.value(key);
   const Numbers from = keys.value(key);
-  if (channel.interpolation == Interpolation::step) return from;
   const Numbers to = keys.value(key + 1);
   if (rotation) return slerp(unit(from), unit(to), u);
   Numbers value(from.size());

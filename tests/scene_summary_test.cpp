@@ -114,7 +114,7 @@ TEST(SceneReport, SaysWhatAnimationsMove) {
   EXPECT_NE(text.find("0: 'go', 2.50 s, moves 2 shapes, 1 light, 1 camera; deforms 1 mesh\n"),
             std::string::npos)
       << text;
-  EXPECT_NE(text.find("1: 'idle', 0 ms, changes nothing that is seen\n"), std::string::npos)
+  EXPECT_NE(text.find("1: 'idle', 0.00 s, changes nothing that is seen\n"), std::string::npos)
       << text;
   const auto json = nlohmann::json::parse(scene_json("room.gltf", scene, LoadReport()));
   EXPECT_EQ(json["animations"][0]["seconds"], 2.5);
