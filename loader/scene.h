@@ -13,6 +13,7 @@
 //   - an index of -1 means "none".
 #pragma once
 
+#include <ImathBox.h>
 #include <ImathColor.h>
 #include <ImathMatrix.h>
 #include <ImathVec.h>
@@ -29,6 +30,7 @@ using Imath::M44d;
 using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
+using Imath::V4d;
 using Imath::V4f;
 using Color = Imath::C3f;  // linear Rec. 709, or a dimensionless reflectance
 
@@ -147,6 +149,8 @@ struct Instance {
   int material = -1;     // index into Scene::materials; -1: the default Material
   int node = -1;         // index into Scene::nodes, for animation
   M44d object_to_world;  // affine, invertible; may mirror and scale unevenly
+  bool visible = true;   // false: an animation has it scaled to nothing or too far away, it is not
+                         // to be drawn, and object_to_world is the identity
 };
 
 enum class LightKind : std::uint8_t { point, spot, directional };
@@ -197,25 +201,89 @@ struct Node {
   std::string name;
   int parent = -1;  // index into Scene::nodes
   M44d local_to_parent;
+  M44d local_to_world;  // may be singular or not finite
 };
 
 enum class AnimationTarget : std::uint8_t { translation, rotation, scale, weights };
 enum class Interpolation : std::uint8_t { step, linear, cubic_spline };
 
-// One animated property of one node, as data; nothing plays it yet.
+// One animated property of one node, as data; pose_scene (loader/animate.h) plays it.
 struct AnimationChannel {
   int node = -1;  // index into Scene::nodes
   AnimationTarget target = AnimationTarget::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<float> times;  // seconds, increasing
-  std::vector<float>
-      values;  // 3 per key (translation: scene units; scale), 4 (rotation: quaternion x y z w) or
-               // one per morph weight; cubic_spline: in-tangent, value, out-tangent per key
+  std::vector<float> times;   // seconds, increasing; at least one
+  std::vector<float> values;  // 3 per key (translation: scene units; scale), 4 (rotation:
+                              // quaternion x y z w, not zero) or one per morph weight;
+                              // cubic_spline: in-tangent, value, out-tangent per key
 };
 
 struct Animation {
   std::string name;
   std::vector<AnimationChannel> channels;
+};
+
+// The local transform of a node at rest, in the parts that animations replace.
+struct RestTransform {
+  int node = -1;                     // index into Scene::nodes
+  V3d translation{0.0};              // scene units
+  V4d rotation{0.0, 0.0, 0.0, 1.0};  // quaternion x y z w, of any length but 0
+  V3d scale{1.0};                    // comes first, then rotation, then translation
+};
+
+// What a morph target adds to the vertices at weight 1. Each array is empty, for nothing, or as
+// long as the mesh's.
+struct MorphTarget {
+  std::vector<V3f> positions;  // scene units
+  std::vector<V3f> normals;
+  std::vector<V3f> tangents;  // xyz; the handedness stays
+};
+
+// Up to four of the joints that each vertex hangs on; more take more of these sets.
+struct JointSet {
+  std::vector<Imath::Vec4<std::uint16_t>> joints;  // indices into Skin::joints
+  std::vector<V4f> weights;  // finite, ≥ 0; shares of the sum over all sets; all 0: no joint
+};
+
+// The joints that meshes hang on.
+struct Skin {
+  std::vector<int> joints;          // indices into Scene::nodes
+  std::vector<M44d> inverse_binds;  // of each joint: from the vertices' object space to the joint's
+};
+
+// A mesh whose vertices animations move: first the morph targets, then the joints.
+struct Deformation {
+  int mesh = -1;               // index into Scene::meshes: the result
+  std::vector<V3f> positions;  // of the undeformed mesh, in number as the mesh's; scene units
+  std::vector<V3f> normals;    // likewise, or empty
+  std::vector<V4f> tangents;   // likewise, or empty
+  std::vector<MorphTarget> targets;
+  std::vector<float> rest_weights;   // of each target, where no animation sets it
+  std::vector<float> weights;        // of each target, as posed
+  int weights_node = -1;             // index into Scene::nodes, whose channels set the weights
+  int skin = -1;                     // index into Motion::skins; -1: no joints
+  std::vector<JointSet> joint_sets;  // each array as long as positions; empty without a skin
+  bool turned = false;  // as posed: joints mirror the mesh, and its triangles are turned to match
+  Imath::Box3d bounds;  // as posed, object space; empty: a vertex has no finite place
+};
+
+// An instance that animations move, deform or hide.
+struct MovingInstance {
+  int instance = -1;     // index into Scene::instances
+  int node = -1;         // index into Scene::nodes; -1: joints place its vertices in the world
+  M44d object_to_node;   // to the world for node -1
+  int deformation = -1;  // index into Motion::deformations
+  Imath::Box3d bounds;   // object space, of a shape without deformation
+};
+
+// What animations can change, found while loading, so that posing the scene looks at nothing else.
+// All empty for a scene without animations.
+struct Motion {
+  std::vector<int> nodes;           // the animated ones and all below, parents before children
+  std::vector<RestTransform> rest;  // by node, ascending; of all whose transform is animated
+  std::vector<MovingInstance> instances;
+  std::vector<Skin> skins;
+  std::vector<Deformation> deformations;
 };
 
 struct Scene {
@@ -230,6 +298,7 @@ struct Scene {
   Environment environment;
   std::vector<Node> nodes;
   std::vector<Animation> animations;
+  Motion motion;
 };
 
 }  // namespace lumivec

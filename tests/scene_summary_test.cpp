@@ -67,6 +67,59 @@ TEST(SceneSummary, OfAnEmptySceneHasNoBounds) {
   EXPECT_TRUE(world_bounds(Scene()).isEmpty());
 }
 
+// Node 0 carries a light and node 1, which has a camera and a mesh of its own weights.
+static Scene animated_scene() {
+  Scene scene = small_scene();
+  scene.nodes.resize(2);
+  scene.nodes[1].parent = 0;
+  scene.lights.resize(1);
+  scene.lights[0].node = 0;
+  scene.cameras[0].node = 1;
+  Animation go{"go", {AnimationChannel(), AnimationChannel()}};
+  go.channels[0].node = 0;
+  go.channels[0].times = {0.0f, 2.5f};
+  go.channels[1].node = 1;
+  go.channels[1].target = AnimationTarget::weights;
+  go.channels[1].times = {1.0f};
+  scene.animations = {go, Animation{"idle", {}}};
+  scene.motion.nodes = {0, 1};
+  scene.motion.instances.resize(2);
+  scene.motion.instances[0].node = 1;
+  scene.motion.instances[1].node = 0;
+  scene.motion.deformations.resize(1);
+  scene.motion.deformations[0].weights_node = 1;
+  return scene;
+}
+
+TEST(SceneSummary, CountsWhatAnimationsChange) {
+  const Scene scene = animated_scene();
+  const AnimationCounts go = count_animation(scene, scene.animations[0]);
+  EXPECT_EQ(go.nodes, 1u);
+  EXPECT_EQ(go.instances, 2u);
+  EXPECT_EQ(go.meshes, 1u);
+  EXPECT_EQ(go.lights, 1u);
+  EXPECT_EQ(go.cameras, 1u);
+  const AnimationCounts idle = count_animation(scene, scene.animations[1]);
+  EXPECT_EQ(idle.nodes + idle.instances + idle.meshes + idle.lights + idle.cameras, 0u);
+}
+TEST(SceneSummary, HiddenInstancesHaveNoBounds) {
+  Scene scene = small_scene();
+  scene.instances[1].visible = false;
+  EXPECT_EQ(world_bounds(scene).max, V3d(2, 1, 2));
+}
+
+TEST(SceneReport, SaysWhatAnimationsMove) {
+  const Scene scene = animated_scene();
+  const std::string text = scene_text("room.gltf", scene, LoadReport());
+  EXPECT_NE(text.find("0: 'go', 2.50 s, moves 2 shapes, 1 light, 1 camera; deforms 1 mesh\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("1: 'idle', 0.00 s, changes nothing that is seen\n"), std::string::npos)
+      << text;
+  const auto json = nlohmann::json::parse(scene_json("room.gltf", scene, LoadReport()));
+  EXPECT_EQ(json["animations"][0]["seconds"], 2.5);
+  EXPECT_EQ(json["animations"][0]["deformed_meshes"], 1);
+}
 TEST(SceneReport, SaysWhatIsNotShown) {
   LoadReport report;
   report.format = "glTF 2.0";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "loader/animate.h"
 #include "viewer/json_text.h"
 #include "viewer/scene_summary.h"
 #include "viewer/text_format.h"
@@ -49,12 +50,21 @@ std::string vector_text(const V3d& v) {
   return "(" + format_number(v.x) + ", " + format_number(v.y) + ", " + format_number(v.z) + ")";
 }
 
-double animation_seconds(const Animation& animation) {
-  double seconds = 0.0;
-  for (const AnimationChannel& channel : animation.channels) {
-    if (!channel.times.empty()) seconds = std::max(seconds, double(channel.times.back()));
-  }
-  return seconds;
+// "moves 3 shapes, 1 camera; deforms 2 meshes".
+std::string animation_effect(const AnimationCounts& counts) {
+  std::string carried;
+  const auto add = [](std::string& text, std::uint64_t count, const char* one, const char* many) {
+    if (count == 0) return;
+    text += (text.empty() ? "" : ", ") + format_count(count) + " " + (count == 1 ? one : many);
+  };
+  add(carried, counts.instances, "shape", "shapes");
+  add(carried, counts.lights, "light", "lights");
+  add(carried, counts.cameras, "camera", "cameras");
+  std::string deformed;
+  add(deformed, counts.meshes, "mesh", "meshes");
+  if (carried.empty() && deformed.empty()) return "changes nothing that is seen";
+  if (carried.empty()) return "deforms " + deformed;
+  return "moves " + carried + (deformed.empty() ? "" : "; deforms " + deformed);
 }
 
 // "cameras: 2" and a line for each of the first few.
@@ -136,9 +146,10 @@ std::string scene_text(const std::string& file, const Scene& scene, const LoadRe
     return name_or(camera.name, "unnamed") + ", " + camera_view(camera) +
            (report.default_camera ? " (made up: the file has none)" : "");
   });
-  list(text, "animations", scene.animations, [](const Animation& animation) {
-    return name_or(animation.name, "unnamed") + ", " + format_count(animation.channels.size()) +
-           " channels, " + format_duration(animation_seconds(animation));
+  list(text, "animations", scene.animations, [&](const Animation& animation) {
+    return name_or(animation.name, "unnamed") + ", " +
+           format_duration(animation_length(animation)) + ", " +
+           animation_effect(count_animation(scene, animation));
   });
   text += "memory: " + format_bytes(counts.bytes_geometry) + " geometry, " +
           format_bytes(counts.bytes_images) + " textures\n";
@@ -198,9 +209,15 @@ std::string scene_json(const std::string& file, const Scene& scene, const LoadRe
   json["environment"] = {{"image", nullptr}, {"radiance", triple(environment.radiance)}};
   if (environment.image >= 0) json["environment"]["image"] = environment.image;
   for (const Animation& animation : scene.animations) {
+    const AnimationCounts moved = count_animation(scene, animation);
     json["animations"].push_back({{"name", animation.name},
                                   {"channels", animation.channels.size()},
-                                  {"seconds", animation_seconds(animation)}});
+                                  {"seconds", animation_length(animation)},
+                                  {"nodes", moved.nodes},
+                                  {"instances", moved.instances},
+                                  {"deformed_meshes", moved.meshes},
+                                  {"lights", moved.lights},
+                                  {"cameras", moved.cameras}});
   }
   for (const LoadWarning& warning : report.warnings) {
     json["warnings"].push_back({{"where", warning.where}, {"message", warning.message}});

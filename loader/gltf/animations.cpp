@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace lumivec::gltf {
 namespace {
@@ -56,7 +58,33 @@ bool is_finite(const std::vector<float>& values) {
   return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
 }
 
-// None, if the channel does not move a node or contradicts itself.
+// What contradicts itself in a channel; empty if nothing does.
+std::string contradiction(const AnimationChannel& channel, std::size_t numbers_per_key) {
+  const bool spline = channel.interpolation == Interpolation::cubic_spline;
+  const std::size_t per_key = numbers_per_key * (spline ? 3 : 1);
+  if (channel.times.empty()) return "it has no key";
+  if (per_key == 0) return "its node has no morph target";
+  if (channel.values.size() % per_key != 0 ||
+      channel.values.size() / per_key != channel.times.size()) {
+    return std::to_string(channel.times.size()) + " keys of " + std::to_string(per_key) +
+           " numbers do not fit " + std::to_string(channel.values.size()) + " numbers";
+  }
+  if (!is_finite(channel.times) || !increases(channel.times)) {
+    return "its times are not finite or do not increase";
+  }
+  if (!is_finite(channel.values)) return "its values are not finite";
+  if (channel.target != AnimationTarget::rotation) return {};
+  for (std::size_t key = 0; key < channel.times.size(); ++key) {
+    const std::size_t row = spline ? 3 * key + 1 : key;
+    const auto q = channel.values.begin() + static_cast<std::ptrdiff_t>(4 * row);
+    if (std::all_of(q, q + 4, [](float x) { return x == 0.0f; })) {
+      return "the rotation of key " + std::to_string(key) + " is no quaternion";
+    }
+  }
+  return {};
+}
+
+// None, with a warning, if the channel contradicts itself or moves what cannot be moved.
 std::optional<AnimationChannel> read_channel(Context& context, const Document& document,
                                              Accessors& accessors,
                                              const tinygltf::Animation& animation,
@@ -75,23 +103,24 @@ std::optional<AnimationChannel> read_channel(Context& context, const Document& d
                             " is unknown, and the channel is left out");
     return std::nullopt;
   }
+  const auto& node = document.model.nodes[static_cast<std::size_t>(source.target_node)];
+  if (target->target != AnimationTarget::weights && !node.matrix.empty()) {
+    context.warn(where, "node " + std::to_string(source.target_node) +
+                            " is placed by a matrix, and the channel is left out");
+    return std::nullopt;
+  }
   AnimationChannel channel;
   channel.node = source.target_node;
   channel.target = target->target;
   channel.interpolation = *interpolation;
   channel.times = read_floats(context, accessors, sampler.input, 1, where);
   channel.values = read_floats(context, accessors, sampler.output, target->components, where);
-
-  std::size_t per_key = static_cast<std::size_t>(target->components);
-  if (channel.target == AnimationTarget::weights) {
-    per_key = morph_weights(document.model, channel.node);
-  }
-  if (*interpolation == Interpolation::cubic_spline) per_key *= 3;
-  if (channel.times.empty() || per_key == 0 ||
-      channel.values.size() / per_key != channel.times.size() ||
-      channel.values.size() % per_key != 0 || !is_finite(channel.times) ||
-      !is_finite(channel.values) || !increases(channel.times)) {
-    context.warn(where, "keys and values do not fit each other, and the channel is left out");
+  const bool weights = channel.target == AnimationTarget::weights;
+  const std::string problem =
+      contradiction(channel, weights ? morph_weights(document.model, channel.node)
+                                     : static_cast<std::size_t>(target->components));
+  if (!problem.empty()) {
+    context.warn(where, problem + ", and the channel is left out");
     return std::nullopt;
   }
   return channel;
@@ -106,10 +135,16 @@ std::vector<Animation> read_animations(Context& context, const Document& documen
     const tinygltf::Animation& source = document.model.animations[i];
     Animation& animation = animations.emplace_back();
     animation.name = source.name;
+    std::set<std::pair<int, AnimationTarget>> set;
     for (std::size_t c = 0; c < source.channels.size(); ++c) {
-      auto channel = read_channel(context, document, accessors, source, source.channels[c],
-                                  pointer({"animations", i, "channels", c}));
-      if (channel) animation.channels.push_back(std::move(*channel));
+      const std::string where = pointer({"animations", i, "channels", c});
+      auto channel = read_channel(context, document, accessors, source, source.channels[c], where);
+      if (!channel) continue;
+      if (!set.emplace(channel->node, channel->target).second) {
+        context.warn(where, "sets what a channel before it sets, and is left out");
+        continue;
+      }
+      animation.channels.push_back(std::move(*channel));
     }
   }
   return animations;

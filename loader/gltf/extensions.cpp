@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 namespace lumivec::gltf {
 namespace {
@@ -81,11 +80,6 @@ V2f vector_or(const tinygltf::Value& extension, const std::string& name, V2f fal
 
 int index_or(const tinygltf::Value& extension, const std::string& name, int fallback) {
   return extension.Has(name) ? extension.Get(name).GetNumberAsInt() : fallback;
-}
-
-float to_float(double x) {
-  constexpr double largest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(x, -largest, largest));
 }
 
 }  // namespace lumivec::gltf

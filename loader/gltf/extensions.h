@@ -8,6 +8,7 @@
 
 #include "loader/gltf/context.h"
 #include "loader/scene.h"
+#include "loader/to_float.h"
 
 namespace lumivec::gltf {
 
@@ -24,8 +25,5 @@ double number_or(const tinygltf::Value& extension, const std::string& name, doub
 Color color_or(const tinygltf::Value& extension, const std::string& name, Color fallback);
 V2f vector_or(const tinygltf::Value& extension, const std::string& name, V2f fallback);
 int index_or(const tinygltf::Value& extension, const std::string& name, int fallback);
-
-// x as a float, with what float cannot hold brought to its largest finite value.
-float to_float(double x);
 
 }  // namespace lumivec::gltf

@@ -3,30 +3,40 @@
 #include <ImathBoxAlgo.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "loader/deform.h"
 #include "loader/gltf/extensions.h"
-#include "loader/gltf/transforms.h"
+#include "loader/placement.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {
 
-// Squares of coordinates must stay finite in float, in ray tracing kernels too: Embree ignores what
-// lies farther out.
-constexpr double farthest = 1e18;
+// For each node, does an animation set its morph weights?
+std::vector<bool> nodes_with_animated_weights(const Scene& scene) {
+  std::vector<bool> nodes(scene.nodes.size());
+  for (const Animation& animation : scene.animations) {
+    for (const AnimationChannel& channel : animation.channels) {
+      if (channel.target != AnimationTarget::weights) continue;
+      nodes[static_cast<std::size_t>(channel.node)] = true;
+    }
+  }
+  return nodes;
+}
 
 class InstanceReader {
  public:
   InstanceReader(Context& context, const Document& document, Accessors& accessors,
-                 const NodeTree& tree, Scene& scene)
+                 const std::vector<bool>& moving, Scene& scene)
       : context_(context),
         document_(document),
         accessors_(accessors),
-        tree_(tree),
+        moving_(moving),
         scene_(scene),
         materials_(context, document, scene),
         meshes_(context, document, accessors, scene),
-        joints_(document.model.skins.size()) {}
+        animated_weights_(nodes_with_animated_weights(scene)),
+        skins_(document.model.skins.size()) {}
 
   void read(int index) {
     const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(index)];
@@ -36,30 +46,30 @@ class InstanceReader {
     const auto& primitives = document_.model.meshes[mesh].primitives;
     const std::vector<M44d> transforms = instance_transforms(context_, accessors_, node, where);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-      const Pose pose = pose_of(node, primitives[i], where);
+      const Pose pose = pose_of(index, primitives[i], where);
       const int material = materials_.use(primitives[i].material);
       const Shape shape = meshes_.shape(mesh, i, material, pose);
       if (shape.mesh < 0 && shape.sphere < 0) continue;
       // A skin places its vertices in the world itself.
-      const M44d world =
-          pose.joint_matrices ? M44d() : tree_.worlds[static_cast<std::size_t>(index)];
-      place(index, shape, material, world, transforms, where);
+      place(index, shape, material, pose.posed_skin ? -1 : index, transforms, where);
     }
   }
 
   const Imath::Box3d& bounds() const { return bounds_; }
 
  private:
-  Pose pose_of(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
-               const std::string& where) {
+  Pose pose_of(int index, const tinygltf::Primitive& primitive, const std::string& where) {
     Pose pose;
+    const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(index)];
     const auto& mesh = document_.model.meshes[static_cast<std::size_t>(node.mesh)];
     const auto& weights = node.weights.empty() ? mesh.weights : node.weights;
+    const bool animated = animated_weights_[static_cast<std::size_t>(index)];
     const bool moves =
-        std::any_of(weights.begin(), weights.end(), [](double w) { return w != 0.0; });
+        animated || std::any_of(weights.begin(), weights.end(), [](double w) { return w != 0.0; });
     if (moves && !primitive.targets.empty()) {
       for (const double w : weights) pose.weights.push_back(to_float(w));
       pose.weights.resize(primitive.targets.size());
+      if (animated) pose.weights_node = index;
     }
     if (node.skin < 0) return pose;
     if (!primitive.attributes.contains("JOINTS_0") || !primitive.attributes.contains("WEIGHTS_0")) {
@@ -67,65 +77,84 @@ class InstanceReader {
       return pose;
     }
     pose.skin = node.skin;
-    auto& joints = joints_[static_cast<std::size_t>(node.skin)];
-    if (!joints) {
-      joints = std::make_shared<const std::vector<M44d>>(joint_matrices(
-          context_, accessors_, document_.model.skins[static_cast<std::size_t>(node.skin)],
-          pointer({"skins", static_cast<std::size_t>(node.skin)}), tree_.worlds));
+    PosedSkin& skin = posed_skin(static_cast<std::size_t>(node.skin));
+    pose.posed_skin = &skin;
+    if (pose.is_animated() && skin.kept < 0) {
+      skin.kept = static_cast<int>(scene_.motion.skins.size());
+      scene_.motion.skins.push_back(skin.skin);
     }
-    pose.joint_matrices = joints;
     return pose;
   }
 
-  void place(int node, const Shape& shape, int material, const M44d& world,
-             const std::vector<M44d>& transforms, const std::string& where) {
-    const std::string& name = tree_.nodes[static_cast<std::size_t>(node)].name;
-    context_.claim(transforms.size(), sizeof(Instance) + name.size(), where);
-    std::size_t singular = 0;
-    std::size_t far = 0;
-    for (const M44d& transform : transforms) {
-      const M44d object_to_world = transform * world;
-      if (!is_invertible(object_to_world)) {
-        ++singular;
-        continue;
+  PosedSkin& posed_skin(std::size_t index) {
+    auto& posed = skins_[index];
+    if (posed) return *posed;
+    const std::string where = pointer({"skins", index});
+    posed.emplace();
+    posed->skin = read_skin(context_, accessors_, document_.model.skins[index], where);
+    posed->joints = joint_matrices(posed->skin, scene_.nodes);
+    for (std::size_t i = 0; i < posed->joints.size(); ++i) {
+      if (!is_finite(posed->joints[i])) {
+        context_.fail(where, "joint " + std::to_string(i) + " has no finite transform");
       }
-      const Imath::Box3d box = Imath::affineTransform(shape.bounds, object_to_world);
-      if (!is_near(box)) {
-        ++far;
-        continue;
-      }
-      bounds_.extendBy(box);
-      scene_.instances.push_back({name, shape.mesh, shape.sphere, material, node, object_to_world});
+      posed->moves |= moving_[static_cast<std::size_t>(posed->skin.joints[i])];
     }
-    if (singular > 0) {
-      context_.warn(where, "scales to nothing in some direction and is left out");
-    }
-    if (far > 0) context_.warn(where, "lies too far from the origin and is left out");
+    return *posed;
   }
 
-  static bool is_near(const Imath::Box3d& box) {
-    for (int i = 0; i < 3; ++i) {
-      if (!(box.min[i] > -farthest && box.max[i] < farthest)) return false;
+  // under: the node that the instance hangs on, or -1 for one that joints place in the world.
+  void place(int index, const Shape& shape, int material, int under,
+             const std::vector<M44d>& transforms, const std::string& where) {
+    const Node& node = scene_.nodes[static_cast<std::size_t>(index)];
+    const M44d world = under < 0 ? M44d() : node.local_to_world;
+    const bool moves =
+        shape.deformation >= 0 || (under >= 0 && moving_[static_cast<std::size_t>(under)]);
+    context_.claim(
+        transforms.size(),
+        sizeof(Instance) + node.name.size() + (moves ? sizeof(MovingInstance) : std::size_t{0}),
+        where);
+    std::size_t flattened = 0;
+    std::size_t far_away = 0;
+    for (const M44d& transform : transforms) {
+      const M44d object_to_world = transform * world;
+      const Placement how = placement(shape.bounds, object_to_world);
+      const bool visible = how == Placement::shown;
+      if (visible) bounds_.extendBy(Imath::affineTransform(shape.bounds, object_to_world));
+      if (!visible && !moves) {
+        ++(how == Placement::flattened ? flattened : far_away);
+        continue;
+      }
+      const int instance = static_cast<int>(scene_.instances.size());
+      scene_.instances.push_back({node.name, shape.mesh, shape.sphere, material, index,
+                                  visible ? object_to_world : M44d(), visible});
+      if (!moves) continue;
+      scene_.motion.instances.push_back({instance, under, under < 0 ? object_to_world : transform,
+                                         shape.deformation, shape.bounds});
     }
-    return true;
+    if (flattened > 0) {
+      context_.warn(where, "scales to nothing in some direction and is left out");
+    }
+    if (far_away > 0) context_.warn(where, "lies too far from the origin and is left out");
   }
 
   Context& context_;
   const Document& document_;
   Accessors& accessors_;
-  const NodeTree& tree_;
+  const std::vector<bool>& moving_;
   Scene& scene_;
   Materials materials_;
   Meshes meshes_;
-  std::vector<std::shared_ptr<const std::vector<M44d>>> joints_;  // by skin
+  std::vector<bool> animated_weights_;           // by node
+  std::vector<std::optional<PosedSkin>> skins_;  // by index, those that are used
   Imath::Box3d bounds_;
 };
 
 }  // namespace
 
 Imath::Box3d read_instances(Context& context, const Document& document, Accessors& accessors,
-                            const NodeTree& tree, const std::vector<int>& nodes, Scene& scene) {
-  InstanceReader reader(context, document, accessors, tree, scene);
+                            const std::vector<int>& nodes, const std::vector<bool>& moving,
+                            Scene& scene) {
+  InstanceReader reader(context, document, accessors, moving, scene);
   for (const int node : nodes) reader.read(node);
   return reader.bounds();
 }

@@ -9,9 +9,11 @@ namespace lumivec::gltf {
 
 // Fills instances, meshes, spheres and materials of the scene from the given nodes, and returns the
 // bounds of it all in the world. Instances whose transform cannot be inverted or does not fit a
-// float are left out with a warning.
+// float are left out with a warning, or hidden if animations move or deform them. Fills skins,
+// deformations and instances of the scene's motion. moving: for each node, do animations move it?
 Imath::Box3d read_instances(Context& context, const Document& document, Accessors& accessors,
-                            const NodeTree& tree, const std::vector<int>& nodes, Scene& scene);
+                            const std::vector<int>& nodes, const std::vector<bool>& moving,
+                            Scene& scene);
 
 // The transforms of EXT_mesh_gpu_instancing on a node, each to be followed by the node's own; one
 // identity without it.

@@ -4,7 +4,7 @@
 
 #include "loader/gltf/extensions.h"
 #include "loader/gltf/instances.h"
-#include "loader/gltf/transforms.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {
@@ -60,8 +60,9 @@ std::vector<M44d> instance_transforms(Context& context, Accessors& accessors,
       if (values.empty()) return V3d(fallback);
       return V3d(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     };
-    double rotation[4] = {0, 0, 0, 1};
-    if (!rotations.empty()) std::copy_n(rotations.begin() + static_cast<long>(4 * i), 4, rotation);
+    V4d rotation(0, 0, 0, 1);
+    if (!rotations.empty())
+      std::copy_n(rotations.begin() + static_cast<long>(4 * i), 4, &rotation.x);
     transforms[i] = compose(vector(translations, 0.0), rotation, vector(scales, 1.0));
     if (!is_finite(transforms[i])) {
       context.fail(where + "/ROTATION", "element " + std::to_string(i) + " is no quaternion");

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "loader/gltf/extensions.h"
-#include "loader/gltf/transforms.h"
+#include "loader/placement.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {
@@ -37,8 +38,8 @@ void set_cone(Context& context, const std::string& where, const tinygltf::SpotLi
 
 }  // namespace
 
-void read_lights(Context& context, const tinygltf::Model& model, const NodeTree& tree,
-                 const std::vector<int>& nodes, Scene& scene) {
+void read_lights(Context& context, const tinygltf::Model& model, const std::vector<int>& nodes,
+                 const std::vector<bool>& moving, Scene& scene) {
   for (const int index : nodes) {
     const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(index)];
     const auto* extension = find_extension(node.extensions, "KHR_lights_punctual");
@@ -48,12 +49,10 @@ void read_lights(Context& context, const tinygltf::Model& model, const NodeTree&
     const std::string where =
         pointer({"extensions", "KHR_lights_punctual", "lights", static_cast<std::size_t>(number)});
     const auto kind = kind_of(source.type);
-    const M44d& world = tree.worlds[static_cast<std::size_t>(index)];
-    auto frame = rigid_part(world);
-    if (!frame && kind == LightKind::point && is_finite(world)) {
-      frame = M44d().setTranslation(V3d(world[3][0], world[3][1], world[3][2]));
-    }
-    if (!kind || !frame) {
+    const M44d& world = scene.nodes[static_cast<std::size_t>(index)].local_to_world;
+    const bool stands = moving[static_cast<std::size_t>(index)] || rigid_part(world) ||
+                        (kind == LightKind::point && is_finite(world));
+    if (!kind || !stands) {
       context.warn(where, "has an unknown type or no direction and is left out");
       continue;
     }
@@ -61,7 +60,7 @@ void read_lights(Context& context, const tinygltf::Model& model, const NodeTree&
     light.name = source.name.empty() ? node.name : source.name;
     light.kind = *kind;
     light.node = index;
-    light.object_to_world = *frame;
+    light.object_to_world = standing_frame(world);
     bool clamped = false;
     for (std::size_t i = 0; i < 3; ++i) {
       const double color = source.color.size() == 3 ? source.color[i] : 1.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "loader/deform.h"
 #include "loader/gltf/materials.h"
 #include "loader/gltf/triangles.h"
 
@@ -24,12 +25,6 @@ std::optional<double> declared_radius(const tinygltf::Primitive& primitive) {
   return primitive.extras.Get("sphere").Get("radius").GetNumberAsDouble();
 }
 
-Imath::Box3d bounds_of(const Mesh& mesh) {
-  Imath::Box3f box;
-  for (const V3f& p : mesh.positions) box.extendBy(p);
-  return {V3d(box.min), V3d(box.max)};
-}
-
 }  // namespace
 
 Meshes::Meshes(Context& context, const Document& document, Accessors& accessors, Scene& scene)
@@ -47,8 +42,8 @@ Shape Meshes::shape(std::size_t mesh, std::size_t primitive, int material, const
   }
   const bool moves = !pose.weights.empty();
   const Key key(source.mode, source.indices, source.attributes, tangents,
-                moves ? source.targets : std::vector<Attributes>(), pose.weights, pose.skin,
-                declared_radius(source));
+                moves ? source.targets : std::vector<Attributes>(), pose.weights, pose.weights_node,
+                pose.skin, declared_radius(source));
   auto it = shapes_.find(key);
   if (it == shapes_.end()) {
     it = shapes_.emplace(key, read(source, owner.name, where, space, pose)).first;
@@ -63,9 +58,10 @@ Shape Meshes::read(const tinygltf::Primitive& primitive, const std::string& name
   Shape shape;
   Mesh mesh;
   mesh.name = name;
-  if (!read_mesh(primitive, where, space, pose, mesh)) return shape;
+  Deformation deformation;
+  if (!read_mesh(primitive, where, space, pose, mesh, deformation)) return shape;
   shape.bounds = bounds_of(mesh);
-  shape.sphere = find_sphere(primitive, mesh, where);
+  shape.sphere = pose.is_animated() ? -1 : find_sphere(primitive, mesh, where);
   if (shape.sphere >= 0) {
     const V3d reach(scene_.spheres[static_cast<std::size_t>(shape.sphere)].radius);
     shape.bounds = {-reach, reach};
@@ -73,12 +69,18 @@ Shape Meshes::read(const tinygltf::Primitive& primitive, const std::string& name
     shape.mesh = static_cast<int>(scene_.meshes.size());
     scene_.meshes.push_back(std::move(mesh));
   }
+  if (pose.is_animated()) {
+    deformation.mesh = shape.mesh;
+    shape.deformation = static_cast<int>(scene_.motion.deformations.size());
+    scene_.motion.deformations.push_back(std::move(deformation));
+  }
   return shape;
 }
 
 // False, with a warning, if the primitive has no triangles.
 bool Meshes::read_mesh(const tinygltf::Primitive& primitive, const std::string& where,
-                       const std::optional<TangentSpace>& space, const Pose& pose, Mesh& mesh) {
+                       const std::optional<TangentSpace>& space, const Pose& pose, Mesh& mesh,
+                       Deformation& deformation) {
   const auto positions = primitive.attributes.find("POSITION");
   if (!has_area(context_, primitive.mode, where)) {
     context_.warn(where, "points and lines have no area and are left out");
@@ -102,18 +104,7 @@ bool Meshes::read_mesh(const tinygltf::Primitive& primitive, const std::string& 
   }
   const VertexSelection selection = select_vertices(context_, where, mesh);
   read_vertices(context_, accessors_, primitive.attributes, selection, where, mesh);
-  if (!pose.weights.empty()) {
-    apply_morph_targets(context_, accessors_, primitive.targets, pose.weights, vertices, selection,
-                        where, mesh);
-  }
-  if (pose.joint_matrices) {
-    apply_skin(context_, accessors_, primitive.attributes, *pose.joint_matrices, selection, where,
-               mesh);
-  }
-  if (space && mesh.tangents.empty() && !mesh.normals.empty() &&
-      static_cast<std::size_t>(space->uv_set) < mesh.uvs.size()) {
-    compute_tangents(context_, where, *space, mesh);
-  }
+  apply_pose(context_, accessors_, primitive, pose, selection, where, space, mesh, deformation);
   return true;
 }
 

@@ -5,12 +5,10 @@
 #include <ImathBox.h>
 
 #include <map>
-#include <optional>
 #include <tuple>
 #include <vector>
 
-#include "loader/gltf/pose.h"
-#include "loader/gltf/tangents.h"
+#include "loader/gltf/deformations.h"
 
 namespace lumivec::gltf {
 
@@ -18,7 +16,8 @@ namespace lumivec::gltf {
 struct Shape {
   int mesh = -1;
   int sphere = -1;
-  Imath::Box3d bounds;  // in object space
+  Imath::Box3d bounds;   // in object space
+  int deformation = -1;  // index into Motion::deformations, where animations deform the mesh
 };
 
 class Meshes {
@@ -34,12 +33,13 @@ class Meshes {
   // their material.
   using TangentKey = std::tuple<int, float, float, float, float>;
   using Key = std::tuple<int, int, Attributes, std::optional<TangentKey>, std::vector<Attributes>,
-                         std::vector<float>, int, std::optional<double>>;
+                         std::vector<float>, int, int, std::optional<double>>;
 
   Shape read(const tinygltf::Primitive& primitive, const std::string& name,
              const std::string& where, const std::optional<TangentSpace>& space, const Pose& pose);
   bool read_mesh(const tinygltf::Primitive& primitive, const std::string& where,
-                 const std::optional<TangentSpace>& space, const Pose& pose, Mesh& mesh);
+                 const std::optional<TangentSpace>& space, const Pose& pose, Mesh& mesh,
+                 Deformation& deformation);
   int find_sphere(const tinygltf::Primitive& primitive, const Mesh& mesh, const std::string& where);
   void provide_uvs(int mesh, int material, const std::string& where);
 

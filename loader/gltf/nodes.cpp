@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loader/gltf/transforms.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {
@@ -22,15 +22,8 @@ M44d local_transform(const Context& context, const tinygltf::Node& node, std::si
     }
     return m;
   }
-  double rotation[4] = {0, 0, 0, 1};
-  V3d scale(1.0);
-  V3d translation(0.0);
-  if (!node.rotation.empty()) std::copy_n(node.rotation.begin(), 4, rotation);
-  if (!node.scale.empty()) scale = {node.scale[0], node.scale[1], node.scale[2]};
-  if (!node.translation.empty()) {
-    translation = {node.translation[0], node.translation[1], node.translation[2]};
-  }
-  m = compose(translation, rotation, scale);
+  const RestTransform rest = rest_transform(node, static_cast<int>(index));
+  m = compose(rest.translation, rest.rotation, rest.scale);
   if (!is_finite(m)) {
     context.fail(where_of(index), "rotation is no quaternion, or the transform is not finite");
   }
@@ -73,48 +66,53 @@ std::vector<int> roots_backwards(const std::vector<Node>& nodes) {
 
 }  // namespace
 
-NodeTree read_nodes(const Context& context, const tinygltf::Model& model) {
-  NodeTree tree;
-  tree.nodes.resize(model.nodes.size());
-  tree.worlds.resize(model.nodes.size());
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-    tree.nodes[i].name = model.nodes[i].name;
-    tree.nodes[i].local_to_parent = local_transform(context, model.nodes[i], i);
+RestTransform rest_transform(const tinygltf::Node& node, int index) {
+  RestTransform rest;
+  rest.node = index;
+  if (!node.translation.empty()) std::copy_n(node.translation.begin(), 3, &rest.translation.x);
+  if (!node.rotation.empty()) std::copy_n(node.rotation.begin(), 4, &rest.rotation.x);
+  if (!node.scale.empty()) std::copy_n(node.scale.begin(), 3, &rest.scale.x);
+  return rest;
+}
+
+std::vector<Node> read_nodes(const Context& context, const tinygltf::Model& model) {
+  std::vector<Node> nodes(model.nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes[i].name = model.nodes[i].name;
+    nodes[i].local_to_parent = local_transform(context, model.nodes[i], i);
   }
-  connect(context, model, tree.nodes);
+  connect(context, model, nodes);
 
   std::vector<int> order;
-  descend(model, roots_backwards(tree.nodes), order);
-  std::vector<bool> reached(tree.nodes.size());
+  descend(model, roots_backwards(nodes), order);
+  std::vector<bool> reached(nodes.size());
   for (const int i : order) {
     const auto index = static_cast<std::size_t>(i);
     reached[index] = true;
-    const Node& node = tree.nodes[index];
-    tree.worlds[index] = node.local_to_parent;
-    if (node.parent >= 0) tree.worlds[index] *= tree.worlds[static_cast<std::size_t>(node.parent)];
+    nodes[index].local_to_world = world_transform(nodes[index], nodes);
   }
   for (std::size_t i = 0; i < reached.size(); ++i) {
     if (!reached[i]) context.fail(where_of(i), "is its own ancestor, or below one that is");
   }
-  return tree;
+  return nodes;
 }
 
 std::vector<int> nodes_of_scene(Context& context, const tinygltf::Model& model,
-                                const NodeTree& tree, int scene) {
+                                const std::vector<Node>& tree, int scene) {
   std::vector<int> order;
   if (scene < 0) {
-    descend(model, roots_backwards(tree.nodes), order);
+    descend(model, roots_backwards(tree), order);
     return order;
   }
   const auto& listed = model.scenes[static_cast<std::size_t>(scene)].nodes;
   const std::string where = pointer({"scenes", static_cast<std::size_t>(scene), "nodes"});
-  std::vector<bool> seen(tree.nodes.size());
+  std::vector<bool> seen(tree.size());
   std::vector<int> roots;
   for (const int root : listed) {
     const auto index = static_cast<std::size_t>(root);
-    if (tree.nodes[index].parent >= 0) {
+    if (tree[index].parent >= 0) {
       context.fail(where, "lists node " + std::to_string(root) + ", which is a child of node " +
-                              std::to_string(tree.nodes[index].parent));
+                              std::to_string(tree[index].parent));
     }
     if (seen[index]) {
       context.warn(where, "lists node " + std::to_string(root) + " twice");

@@ -8,19 +8,16 @@
 
 namespace lumivec::gltf {
 
-// One entry for every node of the file, by its index there.
-struct NodeTree {
-  std::vector<Node> nodes;
-  std::vector<M44d> worlds;  // may be singular or not finite
-};
+// Every node of the file, by its index there. Fails where a node has two parents, is its own
+// ancestor, or has a transform that is not affine or not finite.
+std::vector<Node> read_nodes(const Context& context, const tinygltf::Model& model);
 
-// Fails where a node has two parents, is its own ancestor, or has a transform that is not affine or
-// not finite.
-NodeTree read_nodes(const Context& context, const tinygltf::Model& model);
+// The parts of a node's transform; the node has no matrix.
+RestTransform rest_transform(const tinygltf::Node& node, int index);
 
 // The nodes below the roots of a scene (-1: every root of the file), parents before children, in
 // the file's order.
 std::vector<int> nodes_of_scene(Context& context, const tinygltf::Model& model,
-                                const NodeTree& tree, int scene);
+                                const std::vector<Node>& tree, int scene);
 
 }  // namespace lumivec::gltf

@@ -6,12 +6,6 @@
 
 namespace lumivec::gltf {
 
-// Brings v to unit length; false if it has no direction.
-bool normalize(V3f& v);
-
-// Any unit vector at right angles to the unit vector n.
-V3f perpendicular(const V3f& n);
-
 // Normals become unit vectors. One that is zero or not finite becomes the geometric one of its
 // triangles; if all are, the array goes and the mesh is flat.
 void repair_normals(Context& context, const std::string& where, Mesh& mesh);
@@ -19,5 +13,9 @@ void repair_normals(Context& context, const std::string& where, Mesh& mesh);
 // Tangents become unit vectors with w = ±1; useless ones become any direction at right angles to
 // the normal.
 void repair_tangents(Context& context, const std::string& where, Mesh& mesh);
+
+// Says how many of them had no direction; nothing if none.
+void warn_of_normals(Context& context, const std::string& where, std::size_t count);
+void warn_of_tangents(Context& context, const std::string& where, std::size_t count);
 
 }  // namespace lumivec::gltf

@@ -9,6 +9,7 @@
 #include "loader/gltf/instances.h"
 #include "loader/gltf/lights.h"
 #include "loader/gltf/views.h"
+#include "loader/moving_nodes.h"
 
 namespace lumivec::gltf {
 namespace {
@@ -40,6 +41,18 @@ int select_scene(Context& context, const tinygltf::Model& model) {
                scenes.empty() ? "the file has none" : "choose one of " + printable(known));
 }
 
+// Fills the nodes of the scene's motion and says which they are.
+std::vector<bool> find_moving_nodes(const tinygltf::Model& model, Scene& scene) {
+  const std::vector<int> animated = animated_nodes(scene.animations);
+  for (const int node : animated) {
+    scene.motion.rest.push_back(rest_transform(model.nodes[static_cast<std::size_t>(node)], node));
+  }
+  scene.motion.nodes = nodes_below(animated, scene.nodes);
+  std::vector<bool> moving(scene.nodes.size());
+  for (const int node : scene.motion.nodes) moving[static_cast<std::size_t>(node)] = true;
+  return moving;
+}
+
 }  // namespace
 
 bool looks_like_gltf(const ByteSource& bytes) {
@@ -63,16 +76,16 @@ Scene read_gltf(const std::filesystem::path& file, const ByteSource& bytes,
 
   Scene scene;
   if (selected >= 0) scene.name = document.model.scenes[static_cast<std::size_t>(selected)].name;
-  NodeTree tree = read_nodes(context, document.model);
-  const std::vector<int> nodes = nodes_of_scene(context, document.model, tree, selected);
+  scene.nodes = read_nodes(context, document.model);
+  const std::vector<int> nodes = nodes_of_scene(context, document.model, scene.nodes, selected);
   Buffers buffers(context, document);
   Accessors accessors(context, document, buffers);
-  const Imath::Box3d bounds = read_instances(context, document, accessors, tree, nodes, scene);
   scene.animations = read_animations(context, document, accessors);
+  const std::vector<bool> moving = find_moving_nodes(document.model, scene);
+  const Imath::Box3d bounds = read_instances(context, document, accessors, nodes, moving, scene);
   load_images(context, document, buffers, scene);
-  read_cameras(context, document.model, tree, nodes, scene);
-  read_lights(context, document.model, tree, nodes, scene);
-  scene.nodes = std::move(tree.nodes);
+  read_cameras(context, document.model, nodes, moving, scene);
+  read_lights(context, document.model, nodes, moving, scene);
   if (scene.cameras.empty()) {
     scene.cameras.push_back(default_camera(bounds));
     report.default_camera = true;

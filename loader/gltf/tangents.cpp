@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "loader/gltf/normals.h"
+#include "loader/surface_directions.h"
 
 namespace lumivec::gltf {
 namespace {
@@ -47,9 +47,10 @@ void repeat(Array& array, const std::vector<std::uint32_t>& sources) {
   for (const std::uint32_t i : sources) array.push_back(array[i]);
 }
 
-// Gives mirrored triangles their own copy of every vertex that they share with others.
-void split_mirrored(Context& context, const std::string& where,
-                    const std::vector<std::int8_t>& handedness, Mesh& mesh) {
+// Gives mirrored triangles their own copy of every vertex that they share with others; returns
+// which were copied.
+std::vector<std::uint32_t> split_mirrored(Context& context, const std::string& where,
+                                          const std::vector<std::int8_t>& handedness, Mesh& mesh) {
   constexpr std::uint8_t plain = 1;
   constexpr std::uint8_t mirrored = 2;
   std::vector<std::uint8_t> kinds(mesh.positions.size(), 0);
@@ -61,7 +62,7 @@ void split_mirrored(Context& context, const std::string& where,
   for (std::uint32_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i] == (plain | mirrored)) shared.push_back(i);
   }
-  if (shared.empty()) return;
+  if (shared.empty()) return shared;
   const std::size_t before = mesh.positions.size();
   context.claim(shared.size(),
                 2 * sizeof(V3f) + sizeof(V4f) + mesh.uvs.size() * sizeof(V2f) + sizeof(V4f), where);
@@ -78,6 +79,7 @@ void split_mirrored(Context& context, const std::string& where,
       corner = static_cast<std::uint32_t>(before + static_cast<std::size_t>(it - shared.begin()));
     }
   }
+  return shared;
 }
 
 // For every vertex, the first one that has the same position, normal, texture coordinate and
@@ -125,14 +127,14 @@ void add_frame(const Imath::Vec3<std::uint32_t>& t, const TangentSpace& space,
 
 }  // namespace
 
-void compute_tangents(Context& context, const std::string& where, const TangentSpace& space,
-                      Mesh& mesh) {
+std::vector<std::uint32_t> compute_tangents(Context& context, const std::string& where,
+                                            const TangentSpace& space, Mesh& mesh) {
   context.claim(mesh.triangles.size(), sizeof(std::int8_t), where);
   std::vector<std::int8_t> of_triangle(mesh.triangles.size());
   for (std::size_t i = 0; i < of_triangle.size(); ++i) {
     of_triangle[i] = static_cast<std::int8_t>(frame_of(mesh, mesh.triangles[i], space).handedness);
   }
-  split_mirrored(context, where, of_triangle, mesh);
+  std::vector<std::uint32_t> doubled = split_mirrored(context, where, of_triangle, mesh);
   const std::size_t count = mesh.positions.size();
   context.claim(count, sizeof(V4f) + 2 * sizeof(std::uint32_t) + sizeof(std::int8_t), where);
   std::vector<std::int8_t> of_vertex(count, 0);
@@ -153,6 +155,7 @@ void compute_tangents(Context& context, const std::string& where, const TangentS
     if (!normalize(direction)) direction = perpendicular(mesh.normals[i]);
     tangent = V4f(direction.x, direction.y, direction.z, of_vertex[i] < 0 ? -1.0f : 1.0f);
   }
+  return doubled;
 }
 
 }  // namespace lumivec::gltf

@@ -1,6 +1,9 @@
 // Tangent frames for normal maps whose mesh brings none, in the way of MikkTSpace.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "loader/gltf/context.h"
 #include "loader/scene.h"
 
@@ -14,8 +17,9 @@ struct TangentSpace {
 
 // Fills mesh.tangents from the derivative of position by u, averaged over the triangles at a vertex
 // by their angle there. A vertex where mirrored and unmirrored triangles meet is doubled. mesh has
-// normals and the UV set.
-void compute_tangents(Context& context, const std::string& where, const TangentSpace& space,
-                      Mesh& mesh);
+// normals and the UV set. Returns the vertices that were doubled, in the order of their copies,
+// which are appended.
+std::vector<std::uint32_t> compute_tangents(Context& context, const std::string& where,
+                                            const TangentSpace& space, Mesh& mesh);
 
 }  // namespace lumivec::gltf

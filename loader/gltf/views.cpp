@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include "loader/gltf/extensions.h"
-#include "loader/gltf/transforms.h"
+#include "loader/placement.h"
+#include "loader/transforms.h"
 
 namespace lumivec::gltf {
 namespace {
@@ -39,8 +40,8 @@ bool read_orthographic(const tinygltf::OrthographicCamera& source, Camera& camer
 
 }  // namespace
 
-void read_cameras(Context& context, const tinygltf::Model& model, const NodeTree& tree,
-                  const std::vector<int>& nodes, Scene& scene) {
+void read_cameras(Context& context, const tinygltf::Model& model, const std::vector<int>& nodes,
+                  const std::vector<bool>& moving, Scene& scene) {
   for (const int index : nodes) {
     const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(index)];
     if (node.camera < 0) continue;
@@ -49,15 +50,16 @@ void read_cameras(Context& context, const tinygltf::Model& model, const NodeTree
     Camera camera;
     camera.name = source.name.empty() ? node.name : source.name;
     camera.node = index;
-    const auto frame = rigid_part(tree.worlds[static_cast<std::size_t>(index)]);
+    const M44d& world = scene.nodes[static_cast<std::size_t>(index)].local_to_world;
+    const bool stands = moving[static_cast<std::size_t>(index)] || rigid_part(world);
     const bool perspective = source.type == "perspective";
     const bool sees = perspective ? read_perspective(source.perspective, camera)
                                   : read_orthographic(source.orthographic, camera);
-    if (!frame || !sees) {
+    if (!stands || !sees) {
       context.warn(where, "has no field of view or no direction and is left out");
       continue;
     }
-    camera.camera_to_world = *frame;
+    camera.camera_to_world = standing_frame(world);
     if (perspective) {
       set_range(context, where, source.perspective.znear, source.perspective.zfar, camera);
     } else {

@@ -7,9 +7,10 @@
 
 namespace lumivec::gltf {
 
-// Fills Scene::cameras. A camera that could see nothing is left out with a warning.
-void read_cameras(Context& context, const tinygltf::Model& model, const NodeTree& tree,
-                  const std::vector<int>& nodes, Scene& scene);
+// Fills Scene::cameras. A camera that could see nothing is left out with a warning; one that
+// animations move (moving, by node) may find its direction later.
+void read_cameras(Context& context, const tinygltf::Model& model, const std::vector<int>& nodes,
+                  const std::vector<bool>& moving, Scene& scene);
 
 // Looks at the middle of the bounds from in front, from the right and from slightly above, from
 // where all of them just fit a square picture. glTF models face +Z and stand upright along +Y.

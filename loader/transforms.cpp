@@ -1,8 +1,8 @@
-#include "loader/gltf/transforms.h"
+#include "loader/transforms.h"
 
 #include <cmath>
 
-namespace lumivec::gltf {
+namespace lumivec {
 namespace {
 
 V3d row(const M44d& m, int i) {
@@ -44,12 +44,12 @@ bool is_invertible(const M44d& m) {
   return std::abs(determinant3(unit)) > flattest;
 }
 
-M44d compose(const V3d& translation, const double (&rotation)[4], const V3d& scale) {
-  const double l = std::hypot(std::hypot(rotation[0], rotation[1]), rotation[2], rotation[3]);
-  const double x = rotation[0] / l;
-  const double y = rotation[1] / l;
-  const double z = rotation[2] / l;
-  const double w = rotation[3] / l;
+M44d compose(const V3d& translation, const V4d& rotation, const V3d& scale) {
+  const double l = std::hypot(std::hypot(rotation.x, rotation.y), rotation.z, rotation.w);
+  const double x = rotation.x / l;
+  const double y = rotation.y / l;
+  const double z = rotation.z / l;
+  const double w = rotation.w / l;
   const double r[3][3] = {
       {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
       {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
@@ -61,6 +61,11 @@ M44d compose(const V3d& translation, const double (&rotation)[4], const V3d& sca
     m[3][i] = translation[i];
   }
   return m;
+}
+
+M44d world_transform(const Node& node, const std::vector<Node>& nodes) {
+  if (node.parent < 0) return node.local_to_parent;
+  return node.local_to_parent * nodes[static_cast<std::size_t>(node.parent)].local_to_world;
 }
 
 std::optional<M44d> rigid_part(const M44d& m) {
@@ -81,4 +86,4 @@ std::optional<M44d> rigid_part(const M44d& m) {
   return M44d(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, m[3][0], m[3][1], m[3][2], 1);
 }
 
-}  // namespace lumivec::gltf
+}  // namespace lumivec
