@@ -127,6 +127,7 @@ std::vector<BoundingSphere> caustic_casters(const TracedScene& scene, float spec
   const auto add = [&](float roughest, float least, float worth) {
     std::vector<BoundingSphere> all;
     for (std::size_t i = 0; i < scene.instances().size(); ++i) {
+      if (!scene.scene().instances[i].visible) continue;
       const int material = scene.scene().instances[i].material;
       const float roughness = material < 0 ? 1.0f : sharpest[std::size_t(material)];
       if (!(roughness < roughest) || roughness < least) continue;

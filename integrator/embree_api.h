@@ -41,6 +41,13 @@ inline void intersect8(const int* valid, RTCScene scene, QueryContext& context, 
   RTCIntersectArguments arguments = detail::intersect_arguments(context);
   rtcIntersect8(valid, scene, &rays, &arguments);
 }
+// Of rays that start together and go much the same way.
+inline void intersect8_coherent(const int* valid, RTCScene scene, QueryContext& context,
+                                RTCRayHit8& rays) {
+  RTCIntersectArguments arguments = detail::intersect_arguments(context);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &rays, &arguments);
+}
 inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {
   RTCOccludedArguments arguments = detail::occluded_arguments(context);
   rtcOccluded1(scene, &ray, &arguments);
@@ -58,6 +65,12 @@ inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
   rtcIntersect1(scene, &context, &ray);
 }
 inline void intersect8(const int* valid, RTCScene scene, QueryContext& context, RTCRayHit8& rays) {
+  rtcIntersect8(valid, scene, &context, &rays);
+}
+// Of rays that start together and go much the same way.
+inline void intersect8_coherent(const int* valid, RTCScene scene, QueryContext& context,
+                                RTCRayHit8& rays) {
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect8(valid, scene, &context, &rays);
 }
 inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {

@@ -94,6 +94,7 @@ void Lights::add(const Emitter& emitter, const LightBounds& bounds) {
 }
 
 void Lights::add_instance(int instance) {
+  if (!scene_.scene().instances[std::size_t(instance)].visible) return;
   const TracedInstance& traced = scene_.instances()[std::size_t(instance)];
   const Material& material = *traced.material;
   if (material.unlit || mean(material.emission) <= 0.0f) return;

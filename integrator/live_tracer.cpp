@@ -25,6 +25,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int tile_side = 32;  // pixels
+// Of a packet of rays.
+constexpr int block_width = 4, block_height = packet_size / block_width;
 // Records are asked for at every so many pixels in both directions, at another place of each block
 // with every call.
 constexpr int record_stride = 16;
@@ -64,6 +66,46 @@ struct LiveTracer::State {
     statistics.photons += all.size();
     photons.build(std::move(all), map_paths, 0);
     has_photons = true;
+  }
+
+  // The pixels of one packet of rays, from (left, top) on.
+  void see_block(int left, int top, std::vector<VisiblePoint>& points) const {
+    RTCRayHit8 rays;
+    set_constants(rays.ray);
+    std::uint32_t seeds[packet_size] = {};
+    alignas(32) int valid[packet_size];
+    std::array<CameraRay, packet_size> camera;
+    std::array<std::size_t, packet_size> pixel;
+    int count = 0;
+    for (int i = 0; i < packet_size; ++i) {
+      const int x = left + i % block_width, y = top + i / block_width;
+      if (x >= settings.width || y >= settings.height) continue;
+      const CameraRay ray = view->ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      set_ray(rays, count, ray.origin, ray.direction, ray.near, ray.far);
+      camera[std::size_t(count)] = ray;
+      pixel[std::size_t(count)] = std::size_t(y) * std::size_t(settings.width) + std::size_t(x);
+      ++count;
+    }
+    set_valid(rays.ray, count, valid);
+    TraceQuery query = traced.query();
+    query.seeds = seeds;
+    embree::intersect8_coherent(valid, traced.handle(), query.context, rays);
+    for (int i = 0; i < count; ++i) {
+      const CameraRay& ray = camera[std::size_t(i)];
+      const RTCHit8& h = rays.hit;
+      RayHit hit = {rays.ray.tfar[i], h.u[i], h.v[i], h.geomID[i], h.primID[i], h.instID[0][i]};
+      VisiblePoint& to = points[pixel[std::size_t(i)]];
+      to = {V3f(0.0f), V3f(0.0f), std::numeric_limits<float>::infinity(), -1};
+      while (hit.valid()) {
+        const SurfacePoint p = traced.surface(hit, ray.origin, ray.direction);
+        if (!culled(p)) {
+          to = {p.position, p.normal, view->depth(p.position), p.instance};
+          break;
+        }
+        hit = traced.intersect(ray.origin, ray.direction, next_distance(hit.distance, p.error),
+                               ray.far, 0);
+      }
+    }
   }
 
   RenderSettings settings;
@@ -116,42 +158,9 @@ void LiveTracer::see(std::vector<VisiblePoint>& points) {
   const int width = s.settings.width, height = s.settings.height;
   points.resize(std::size_t(width) * std::size_t(height));
   s.arena.execute([&] {
-    for_each(std::size_t(height), [&](std::size_t row) {
-      RTCRayHit8 rays;
-      set_constants(rays.ray);
-      std::uint32_t seeds[packet_size];
-      alignas(32) int valid[packet_size];
-      std::array<CameraRay, packet_size> camera;
-      for (int first = 0; first < width; first += packet_size) {
-        const int count = std::min(packet_size, width - first);
-        set_valid(rays.ray, count, valid);
-        for (int i = 0; i < count; ++i) {
-          CameraRay& ray = camera[std::size_t(i)];
-          ray = s.view->ray(static_cast<float>(first + i) + 0.5f, static_cast<float>(row) + 0.5f);
-          set_ray(rays, i, ray.origin, ray.direction, ray.near, ray.far);
-          seeds[i] = 0;
-        }
-        TraceQuery query = s.traced.query();
-        query.seeds = seeds;
-        embree::intersect8(valid, s.traced.handle(), query.context, rays);
-        for (int i = 0; i < count; ++i) {
-          const CameraRay& ray = camera[std::size_t(i)];
-          const RTCHit8& h = rays.hit;
-          RayHit hit = {rays.ray.tfar[i], h.u[i],      h.v[i],
-                        h.geomID[i],      h.primID[i], h.instID[0][i]};
-          VisiblePoint& to = points[row * std::size_t(width) + std::size_t(first + i)];
-          to = {V3f(0.0f), V3f(0.0f), std::numeric_limits<float>::infinity(), -1};
-          while (hit.valid()) {
-            const SurfacePoint p = s.traced.surface(hit, ray.origin, ray.direction);
-            if (!culled(p)) {
-              to = {p.position, p.normal, s.view->depth(p.position), p.instance};
-              break;
-            }
-            hit = s.traced.intersect(ray.origin, ray.direction,
-                                     next_distance(hit.distance, p.error), ray.far, 0);
-          }
-        }
-      }
+    for_each(std::size_t((height + block_height - 1) / block_height), [&](std::size_t row) {
+      const int y = static_cast<int>(row) * block_height;
+      for (int x = 0; x < width; x += block_width) s.see_block(x, y, points);
     });
   });
   s.statistics.rays_camera += points.size();

@@ -118,6 +118,7 @@ TracedScene::TracedScene(const Scene& scene, int threads) : scene_(scene) {
   place();
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const int instance = static_cast<int>(i);
+    if (!scene.instances[i].visible) continue;
     if (scene.instances[i].sphere >= 0) {
       add_sphere(instance);
     } else {
@@ -140,6 +141,7 @@ void TracedScene::place() {
   std::vector<Bounds> mesh_bounds(scene_.meshes.size());
   Bounds world;
   for (const Instance& instance : scene_.instances) {
+    if (!instance.visible) continue;
     Bounds object;
     if (instance.mesh >= 0) {
       const auto mesh = std::size_t(instance.mesh);

@@ -5,6 +5,9 @@
 #include <numbers>
 #include <vector>
 
+#include "loader/animate.h"
+#include "viewer/errors.h"
+
 namespace lumivec {
 namespace {
 
@@ -22,8 +25,9 @@ bool has_light(const Scene& scene) {
   return shines(scene.environment.radiance) ||
          std::any_of(scene.lights.begin(), scene.lights.end(),
                      [&](const Light& light) { return shines(light.intensity); }) ||
-         std::any_of(scene.instances.begin(), scene.instances.end(),
-                     [&](const Instance& i) { return shines(material_of(i).emission); }) ||
+         std::any_of(
+             scene.instances.begin(), scene.instances.end(),
+             [&](const Instance& i) { return i.visible && shines(material_of(i).emission); }) ||
          all_unlit;
 }
 
@@ -56,6 +60,19 @@ Scene load_lit_scene(const std::filesystem::path& file, const LoadOptions& optio
          ": holds no light, so that the picture is black; light it with --environment");
   }
   return scene;
+}
+
+void pose(Scene& scene, const PoseChoice& choice) {
+  if (!choice.seconds) return;
+  if (scene.animations.empty())
+    throw UsageError("--at: the scene holds no animation; leave it out");
+  std::vector<std::string> names;
+  for (const Animation& animation : scene.animations) names.push_back(animation.name);
+  const int which =
+      choice.animation.empty()
+          ? 0
+          : find_by_name_or_index("--animation", choice.animation, names, "animation");
+  pose_scene(scene, std::size_t(which), *choice.seconds);
 }
 
 const Camera& choose_camera(const Scene& scene, const std::string& wanted) {

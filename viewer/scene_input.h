@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "loader/load_scene.h"
@@ -19,6 +20,15 @@ struct EnvironmentChoice {
 
   bool is_file() const { return !name.empty() && name != "sky" && name != "none"; }
 };
+
+// The moment of an animation that the scene is posed at.
+struct PoseChoice {
+  std::string animation;          // name or index; empty: the first
+  std::optional<double> seconds;  // none: the file's rest pose
+};
+
+// Throws UsageError.
+void pose(Scene& scene, const PoseChoice& choice);
 
 // warn is called with one line for each thing that the user should know. Throws LoadError.
 Scene load_lit_scene(const std::filesystem::path& file, const LoadOptions& options,

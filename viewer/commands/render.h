@@ -29,6 +29,7 @@ struct RenderOptions {
   RenderOptions() { settings.integrator = Integrator::light_vectors; }
 
   EnvironmentChoice environment;
+  PoseChoice pose;
 
   bool automatic_exposure = false;
   double exposure = 0.0;  // stops

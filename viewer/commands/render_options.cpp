@@ -186,6 +186,15 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   add_value_option(app, "--camera", "NAME|INDEX", "Camera of the scene [the first]",
                    [&options](const std::string& text) { options.camera = text; })
       ->group("Scene");
+  add_value_option(app, "--at", "SECONDS", "Pose the scene at this moment of an animation",
+                   [&options](const std::string& text) {
+                     constexpr double a_year = 365.0 * 86400.0;
+                     options.pose.seconds = parse_number("--at", text, 0.0, a_year);
+                   })
+      ->group("Scene");
+  add_value_option(app, "--animation", "NAME|INDEX", "Which animation [the first]",
+                   [&options](const std::string& text) { options.pose.animation = text; })
+      ->group("Scene");
   add_output_options(app, options);
   add_limit_options(app, options.settings);
   add_light_options(app, options);
@@ -202,6 +211,8 @@ void check_render_options(const CLI::App& app, const RenderOptions& options) {
   if (options.outputs.empty()) {
     throw UsageError("render: no output is given; add -o OUT.exr, .png or .jpg");
   }
+  if (app.count("--animation") && !app.count("--at"))
+    throw UsageError("--animation: no moment is given; add --at SECONDS");
   if (app.count("--half") && app.count("--float")) {
     throw UsageError("--half, --float: contradict each other; give one of them");
   }

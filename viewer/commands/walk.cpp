@@ -138,12 +138,10 @@ double percentile(std::vector<double> values, double share) {
 }
 
 nlohmann::json frame_json(const FrameReport& report, bool compared) {
-  nlohmann::json json = {{"seconds", report.frame.seconds},
-                         {"traced", report.frame.traced},
-                         {"filled", report.frame.holes},
-                         {"mean_age", report.frame.mean_age},
-                         {"cache_hits", report.frame.cache_hits},
-                         {"cache_misses", report.frame.cache_misses}};
+  nlohmann::json json = {
+      {"seconds", report.frame.seconds},       {"traced", report.frame.traced},
+      {"filled", report.frame.holes},          {"mean_age", report.frame.mean_age},
+      {"cache_hits", report.frame.cache_hits}, {"cache_misses", report.frame.cache_misses}};
   if (!compared) return json;
   json["relmse"] = report.error.relmse;
   json["flip"] = report.flip;
@@ -186,11 +184,12 @@ int run_walk(const WalkOptions& options) {
   if (!options.statistics.empty()) check_writable(options.statistics);
   if (!options.output.empty()) make_folder(options.output);
   const DisplayTransform display(options.display);
-  const Scene scene = load_lit_scene(
-      options.scene_file, options.load, options.environment, [&](const std::string& warning) {
-        warnings.push_back(warning);
-        if (!options.quiet) std::cerr << "lumivec: warning: " << warning << '\n';
-      });
+  const Scene scene = load_lit_scene(options.scene_file, options.load, options.environment,
+                                     [&](const std::string& warning) {
+                                       warnings.push_back(warning);
+                                       if (!options.quiet)
+                                         std::cerr << "lumivec: warning: " << warning << '\n';
+                                     });
   const Camera& camera = choose_camera(scene, options.camera);
   RenderSettings settings = options.settings;
   const PictureSize size = options.size ? *options.size : size_for(camera);
@@ -225,11 +224,9 @@ int run_walk(const WalkOptions& options) {
   for (int i = 0; i < options.frames && !interrupt.requested(); ++i) {
     const Camera& view = cameras[std::size_t(i)];
     FrameReport report;
-    report.frame =
-        engine.advance(view, options.frame_time, options.settings.terms, picture.pixels);
+    report.frame = engine.advance(view, options.frame_time, options.settings.terms, picture.pixels);
     if (i == 0 && options.automatic_exposure) exposure = automatic_exposure(picture.pixels);
-    if (compared)
-      compare(references.frame(i, view), picture, engine, options, display, report);
+    if (compared) compare(references.frame(i, view), picture, engine, options, display, report);
     if (!options.output.empty()) {
       Picture shown = picture;
       display.apply(shown, exposure);
@@ -246,23 +243,23 @@ int run_walk(const WalkOptions& options) {
   if (!options.statistics.empty()) {
     nlohmann::json frames = nlohmann::json::array();
     for (const FrameReport& report : reports) frames.push_back(frame_json(report, compared));
-    write_text_atomically(
-        options.statistics,
-        json_text({{"command", options.command},
-                   {"mode", options.mode},
-                   {"size", {size.width, size.height}},
-                   {"frame_time", options.frame_time},
-                   {"summary", figures},
-                   {"records", engine.statistics().records},
-                   {"cache_bytes", engine.statistics().cache_bytes},
-                   {"warnings", warnings},
-                   {"frames", frames}}));
+    write_text_atomically(options.statistics,
+                          json_text({{"command", options.command},
+                                     {"mode", options.mode},
+                                     {"size", {size.width, size.height}},
+                                     {"frame_time", options.frame_time},
+                                     {"summary", figures},
+                                     {"records", engine.statistics().records},
+                                     {"cache_bytes", engine.statistics().cache_bytes},
+                                     {"warnings", warnings},
+                                     {"frames", frames}}));
   }
   if (!options.quiet) {
-    std::printf("%zu frames, %s: first %.1f ms, median %.1f ms, 99%% %.1f ms; %.0f samples a frame\n",
-                reports.size(), options.mode.c_str(), 1e3 * double(figures["first_seconds"]),
-                1e3 * double(figures["median_seconds"]),
-                1e3 * double(figures["99th_percentile_seconds"]), double(figures["median_traced"]));
+    std::printf(
+        "%zu frames, %s: first %.1f ms, median %.1f ms, 99%% %.1f ms; %.0f samples a frame\n",
+        reports.size(), options.mode.c_str(), 1e3 * double(figures["first_seconds"]),
+        1e3 * double(figures["median_seconds"]), 1e3 * double(figures["99th_percentile_seconds"]),
+        double(figures["median_traced"]));
     if (compared) {
       std::printf("median relMSE %.4g, median FLIP %.4f, worst %.4f\n",
                   double(figures["median_relmse"]), double(figures["median_flip"]),

@@ -28,8 +28,8 @@ struct WalkOptions {
   int frames = 60;
   std::string mode = "rc+lv";
   WalkMode walk_mode;
-  double frame_time = 0.033;  // seconds
-  RenderSettings settings;    // terms, seed, threads
+  double frame_time = 0.033;        // seconds
+  RenderSettings settings;          // terms, seed, threads
   std::filesystem::path output;     // folder for the frames; empty: none
   std::filesystem::path reference;  // folder of path-traced frames; empty: none
   int reference_samples = 256;      // a pixel

@@ -10,12 +10,11 @@ namespace {
 
 void add_walk_group(CLI::App& app, WalkOptions& options) {
   const std::string group = "Walk";
-  add_value_option(app, "--path", "orbit:DEGREES|dolly:UNITS|FILE",
-                   "Where the camera goes: around what it looks at, straight on, or by the keys of "
-                   "a JSON file",
-                   [&options](const std::string& text) {
-                     options.path = parse_camera_path("--path", text);
-                   })
+  add_value_option(
+      app, "--path", "orbit:DEGREES|dolly:UNITS|FILE",
+      "Where the camera goes: around what it looks at, straight on, or by the keys of "
+      "a JSON file",
+      [&options](const std::string& text) { options.path = parse_camera_path("--path", text); })
       ->group(group);
   add_value_option(app, "--frames", "N", "Frames of the walk [60]",
                    [&options](const std::string& text) {
@@ -50,9 +49,10 @@ void add_walk_group(CLI::App& app, WalkOptions& options) {
                          int(parse_whole("--reference-spp", text, 1, max_picture_samples));
                    })
       ->group(group);
-  add_value_option(
-      app, "--terms", "LIST", "Parts of the light that are shown [all]",
-      [&options](const std::string& text) { options.settings.terms = parse_terms("--terms", text); })
+  add_value_option(app, "--terms", "LIST", "Parts of the light that are shown [all]",
+                   [&options](const std::string& text) {
+                     options.settings.terms = parse_terms("--terms", text);
+                   })
       ->group(group);
   add_value_option(app, "--seed", "N", "Of the random numbers [0]",
                    [&options](const std::string& text) {
@@ -73,11 +73,9 @@ void add_output_group(CLI::App& app, WalkOptions& options) {
   add_value_option(app, "-o,--output", "FOLDER", "Write the frames there, as displayed (PNG)",
                    [&options](const std::string& text) { options.output = text; })
       ->group(group);
-  add_value_option(app, "--size", "WxH|N",
-                   "Pixels [height 512, width by the camera's aspect ratio]",
-                   [&options](const std::string& text) {
-                     options.size = parse_size("--size", text);
-                   })
+  add_value_option(
+      app, "--size", "WxH|N", "Pixels [height 512, width by the camera's aspect ratio]",
+      [&options](const std::string& text) { options.size = parse_size("--size", text); })
       ->group(group);
   add_value_option(app, "--stats", "FILE.json", "Write every frame's figures as JSON",
                    [&options](const std::string& text) { options.statistics = text; })

@@ -39,19 +39,18 @@ constexpr auto specular_term = static_cast<std::size_t>(Term::specular);
 
 }  // namespace
 
+const ShadingCache::Shade ShadingCache::nothing = {};
+
 ShadingCache::ShadingCache(int width, int height)
     : width_(width),
       height_(height),
       points_(std::size_t(width) * std::size_t(height)),
       last_points_(points_.size()),
       shades_(points_.size()),
-      last_shades_(points_.size()) {
-  for (Shade& s : shades_) s.terms.fill(Color(0.0f));
-}
+      last_shades_(points_.size()) {}
 
-void ShadingCache::see(const LiveTracer& tracer, std::vector<VisiblePoint>& seen, bool moved) {
+void ShadingCache::see(const LiveTracer& tracer, std::vector<VisiblePoint>& seen) {
   ++frame_;
-  moved_ = moved;
   std::swap(points_, last_points_);
   std::swap(points_, seen);
   std::swap(shades_, last_shades_);
@@ -59,15 +58,20 @@ void ShadingCache::see(const LiveTracer& tracer, std::vector<VisiblePoint>& seen
     for (int x = 0; x < width_; ++x) {
       const std::size_t i = at(x, y);
       Shade& to = shades_[i];
-      if (moved) {
-        to = Shade();
-        if (!carry_over(tracer, points_[i], to)) to.terms.fill(Color(0.0f));
-      } else {
-        to = last_shades_[i];
-      }
-      if (to.age < std::numeric_limits<std::uint16_t>::max()) ++to.age;
+      if (!carry_over(tracer, points_[i], to)) to = nothing;
+      to.grow_older();
     }
   });
+}
+
+void ShadingCache::rest() {
+  ++frame_;
+  for (Shade& s : shades_) s.grow_older();
+}
+
+void ShadingCache::forget() {
+  ++frame_;
+  std::fill(shades_.begin(), shades_.end(), nothing);
 }
 
 // From the four pixels around the place where the last view saw the point.
@@ -141,8 +145,8 @@ void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests)
       const int x = forward ? k : width_ - 1 - k;
       const std::size_t i = at(x, y), c = std::size_t(x) + 1;
       const float w = wanted[i];
-      const float density = static_cast<float>(
-          std::isinf(w) ? share_of_holes : std::min(1.0, scale * double(w)));
+      const float density =
+          static_cast<float>(std::isinf(w) ? share_of_holes : std::min(1.0, scale * double(w)));
       const float value = density + carried[c] + ahead;
       const bool take = value >= 0.5f;
       if (take) requests.push_back({static_cast<std::uint32_t>(i), frame_});

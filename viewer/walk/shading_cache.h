@@ -18,9 +18,15 @@ class ShadingCache {
  public:
   ShadingCache(int width, int height);
 
-  // Takes over what the tracer's new view sees: seen, row by row. moved: the view is another than
-  // the last one's. seen is swapped for the last one's points.
-  void see(const LiveTracer& tracer, std::vector<VisiblePoint>& seen, bool moved);
+  // A new frame of another view. seen: what the tracer sees, row by row; its contents are exchanged
+  // for the last view's.
+  void see(const LiveTracer& tracer, std::vector<VisiblePoint>& seen);
+
+  // A new frame of the same view.
+  void rest();
+
+  // All pixels show nothing again.
+  void forget();
 
   // About so many pixels to trace, each with a sample number of its own: those that show nothing
   // yet first, then by age and by how few samples they rest on, spread by error diffusion.
@@ -43,11 +49,15 @@ class ShadingCache {
 
  private:
   struct Shade {
-    std::array<Color, term_count> terms;  // means
-    float samples = 0.0f;                 // that they rest on, in effect
-    float specular_samples = 0.0f;        // likewise of the specular term
-    std::uint16_t age = 0;                // frames since a sample was taken
+    std::array<Color, term_count> terms = {Color(0.0f), Color(0.0f), Color(0.0f), Color(0.0f),
+                                           Color(0.0f)};  // means
+    float samples = 0.0f;                                 // that they rest on, in effect
+    float specular_samples = 0.0f;                        // likewise of the specular term
+    std::uint16_t age = 0;                                // frames since a sample was taken
+
+    void grow_older() { age = static_cast<std::uint16_t>(age + (age < 0xffff ? 1 : 0)); }
   };
+  static const Shade nothing;
 
   bool carry_over(const LiveTracer& tracer, const VisiblePoint& point, Shade& shade) const;
   Color sum(const Shade& shade, std::uint32_t terms) const;
@@ -58,7 +68,6 @@ class ShadingCache {
 
   int width_, height_;
   std::uint32_t frame_ = 0;  // numbers samples
-  bool moved_ = false;
   std::vector<VisiblePoint> points_, last_points_;
   std::vector<Shade> shades_, last_shades_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace lumivec {
 namespace {
@@ -18,8 +19,8 @@ constexpr double first_sample_seconds = 4e-6;
 constexpr double learning = 0.3;
 // Of a frame's time for tracing, records have this share while there are some to make.
 constexpr double share_of_records = 0.4;
-// However slow a machine is, something happens in every frame.
-constexpr std::size_t fewest_samples = 256;
+// However slow a machine is, at least this share of the pixels is traced in every frame.
+constexpr double least_traced_share = 0.02;
 
 RenderSettings with_integrator(RenderSettings settings, const WalkMode& mode) {
   settings.integrator = mode.light_vectors ? Integrator::light_vectors : Integrator::path;
@@ -43,7 +44,8 @@ WalkEngine::WalkEngine(const Scene& scene, const RenderSettings& settings, const
 
 void WalkEngine::trace_all() {
   requests_.clear();
-  for (std::size_t i = 0; i < seen_.size(); ++i)
+  const std::size_t pixels = std::size_t(width_) * std::size_t(height_);
+  for (std::size_t i = 0; i < pixels; ++i)
     requests_.push_back({static_cast<std::uint32_t>(i), frame_});
   tracer_.trace(requests_, samples_);
   shading_.add(samples_);
@@ -51,9 +53,9 @@ void WalkEngine::trace_all() {
 
 void WalkEngine::trace_within(double seconds) {
   const Clock::time_point start = Clock::now();
-  const auto count = static_cast<std::size_t>(std::clamp(
-      seconds / sample_seconds_, static_cast<double>(fewest_samples),
-      static_cast<double>(width_) * static_cast<double>(height_)));
+  const double pixels = static_cast<double>(width_) * static_cast<double>(height_);
+  const auto count = static_cast<std::size_t>(
+      std::clamp(seconds / sample_seconds_, std::ceil(least_traced_share * pixels), pixels));
   shading_.choose(count, requests_);
   tracer_.trace(requests_, samples_);
   shading_.add(samples_);
@@ -69,20 +71,21 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   Frame frame;
   const bool moved = !last_ || !same_view(*last_, camera);
   last_ = camera;
-  tracer_.set_view(camera, width_, height_);
-  tracer_.see(seen_);
-  const VisiblePoint& middle =
-      seen_[std::size_t(height_ / 2) * std::size_t(width_) + std::size_t(width_ / 2)];
-  pivot_ = tracer_.origin() + V3d(middle.object >= 0 ? middle.position : V3f(0.0f));
+  if (moved) {
+    tracer_.set_view(camera, width_, height_);
+    tracer_.see(seen_);
+    const VisiblePoint& middle =
+        seen_[std::size_t(height_ / 2) * std::size_t(width_) + std::size_t(width_ / 2)];
+    pivot_ = tracer_.origin() + V3d(middle.object >= 0 ? middle.position : V3f(0.0f));
+  }
   if (mode_.reuse) {
-    shading_.see(tracer_, seen_, moved);
+    moved ? shading_.see(tracer_, seen_) : shading_.rest();
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
     tracer_.improve(std::max(0.0, share_of_records * left));
     trace_within(frame_time - seconds_since(start) - fixed_seconds_);
   } else {
-    shading_ = ShadingCache(width_, height_);
-    std::vector<VisiblePoint> points = seen_;
-    shading_.see(tracer_, points, false);
+    if (moved) shading_.see(tracer_, seen_);
+    shading_.forget();
     tracer_.improve(share_of_records * frame_time);
     trace_all();
   }

@@ -24,10 +24,10 @@ class WalkEngine {
   WalkEngine(const Scene& scene, const RenderSettings& settings, const WalkMode& mode);
 
   struct Frame {
-    double seconds = 0.0;        // to the picture
-    std::size_t traced = 0;      // samples
-    std::size_t holes = 0;       // pixels without a sample, filled from neighbours
-    double mean_age = 0.0;       // frames since pixels were traced
+    double seconds = 0.0;    // to the picture
+    std::size_t traced = 0;  // samples
+    std::size_t holes = 0;   // pixels without a sample, filled from neighbours
+    double mean_age = 0.0;   // frames since pixels were traced
     std::uint64_t cache_hits = 0, cache_misses = 0;
   };
 
@@ -55,7 +55,7 @@ class WalkEngine {
   ShadingCache shading_;
   std::optional<Camera> last_;
   std::uint32_t frame_ = 0;
-  double sample_seconds_;  // of one sample, as measured
+  double sample_seconds_;         // of one sample, as measured
   double fixed_seconds_ = 0.005;  // of what is done once a frame after tracing, as measured
   V3d pivot_{0.0};
   std::vector<VisiblePoint> seen_;
