@@ -177,7 +177,8 @@ float LiveTracer::footprint(float depth) const {
   return state_->view->footprint(depth);
 }
 
-void LiveTracer::trace(const std::vector<LiveRequest>& requests, std::vector<LiveSample>& samples) {
+void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
+                       std::vector<LiveSample>& samples) {
   State& s = *state_;
   std::vector<std::vector<LiveRequest>> by_tile(s.tiles.size());
   const auto width = static_cast<std::uint32_t>(s.settings.width);
@@ -202,7 +203,7 @@ void LiveTracer::trace(const std::vector<LiveRequest>& requests, std::vector<Liv
       for (const LiveRequest& r : wanted) {
         const std::uint32_t x = r.pixel % width - static_cast<std::uint32_t>(tile.x),
                             y = r.pixel / width - static_cast<std::uint32_t>(tile.y);
-        ranges.push_back({y * tile_width + x, r.sample, 1});
+        ranges.push_back({y * tile_width + x, r.sample, 1, centered});
       }
       RenderStatistics counts;
       s.tracer->render_ranges(tile, ranges, sums, counts, use);

@@ -52,8 +52,10 @@ class LiveTracer {
   // Size of a pixel at a depth along the view axis, scene units.
   float footprint(float depth) const;
 
-  // One sample each, in any order.
-  void trace(const std::vector<LiveRequest>& requests, std::vector<LiveSample>& samples);
+  // One sample each, in any order; a pixel at most once. centered: through the pixels' middles,
+  // where see() looks, and not spread by the filter.
+  void trace(const std::vector<LiveRequest>& requests, bool centered,
+             std::vector<LiveSample>& samples);
 
   // Makes cached light that the view lacks for at most so long; light-vectors alone. False: time
   // was too short for all of it.

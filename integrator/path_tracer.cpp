@@ -321,8 +321,10 @@ class PathStream {
     lane.active = true;
     lane.caustic.photons = cache_.photons != nullptr;
     lane.camera_ray = true;
+    bool centered = false;
     if (ranges_) {
       const SampleRange& range = (*ranges_)[range_];
+      centered = range.centered;
       lane.pixel = range.pixel;
       lane.sample = range.first + within_range_;
       if (++within_range_ == range.count) {
@@ -342,7 +344,7 @@ class PathStream {
         hash_combine(hash_combine(hash_combine(seed_low, seed_high), static_cast<std::uint32_t>(x)),
                      static_cast<std::uint32_t>(y));
     const std::array<float, 4> u = sobol_point(lane.index_of(0), hash_combine(lane.seed, 0));
-    const V2f offset = t_.filter_.offset(V2f(u[0], u[1]));
+    const V2f offset = centered ? V2f(0.0f) : t_.filter_.offset(V2f(u[0], u[1]));
     const CameraRay ray = t_.camera_.ray(static_cast<float>(x) + 0.5f + offset.x,
                                          static_cast<float>(y) + 0.5f + offset.y);
     lane.origin = ray.origin;

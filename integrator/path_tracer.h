@@ -47,6 +47,7 @@ struct PixelSums {
 struct SampleRange {
   std::uint32_t pixel = 0;  // row by row
   std::uint32_t first = 0, count = 0;
+  bool centered = false;  // through the pixel's middle, not spread by the filter
 };
 
 struct Tile {

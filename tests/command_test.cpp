@@ -88,7 +88,7 @@ TEST_F(Command, TellsItsVersion) {
 }
 TEST_F(Command, ExplainsItself) {
   const std::string help = run({"help"}).out;
-  for (const char* word : {"render", "info", "compare"}) {
+  for (const char* word : {"render", "walk", "info", "compare"}) {
     EXPECT_NE(help.find(word), std::string::npos) << help;
   }
   EXPECT_EQ(run({"--help"}).out, help);

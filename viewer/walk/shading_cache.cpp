@@ -157,6 +157,11 @@ void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests)
       next[c] += error * (5.0f / 16.0f);
       next[front] += error * (1.0f / 16.0f);
     }
+    // What would leave the picture stays in it.
+    next[1] += next[0];
+    next[std::size_t(width_)] += next[std::size_t(width_) + 1];
+    next[forward ? std::size_t(width_) : 1] += ahead;
+    next[0] = next[std::size_t(width_) + 1] = 0.0f;
     std::swap(carried, next);
   }
 }

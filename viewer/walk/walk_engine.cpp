@@ -42,12 +42,14 @@ WalkEngine::WalkEngine(const Scene& scene, const RenderSettings& settings, const
       shading_(settings.width, settings.height),
       sample_seconds_(first_sample_seconds) {}
 
+// While the eye moves, samples are what pixels' middles see, so that each belongs to the surface
+// that it is kept with; at rest they are spread, which smooths edges.
 void WalkEngine::trace_all() {
   requests_.clear();
   const std::size_t pixels = std::size_t(width_) * std::size_t(height_);
   for (std::size_t i = 0; i < pixels; ++i)
     requests_.push_back({static_cast<std::uint32_t>(i), frame_});
-  tracer_.trace(requests_, samples_);
+  tracer_.trace(requests_, moved_, samples_);
   shading_.add(samples_);
 }
 
@@ -57,7 +59,7 @@ void WalkEngine::trace_within(double seconds) {
   const auto count = static_cast<std::size_t>(
       std::clamp(seconds / sample_seconds_, std::ceil(least_traced_share * pixels), pixels));
   shading_.choose(count, requests_);
-  tracer_.trace(requests_, samples_);
+  tracer_.trace(requests_, moved_, samples_);
   shading_.add(samples_);
   if (requests_.empty()) return;
   const double each = seconds_since(start) / static_cast<double>(requests_.size());
@@ -69,9 +71,9 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   const Clock::time_point start = Clock::now();
   const RenderStatistics before = tracer_.statistics();
   Frame frame;
-  const bool moved = !last_ || !same_view(*last_, camera);
+  moved_ = !last_ || !same_view(*last_, camera);
   last_ = camera;
-  if (moved) {
+  if (moved_) {
     tracer_.set_view(camera, width_, height_);
     tracer_.see(seen_);
     const VisiblePoint& middle =
@@ -79,12 +81,12 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
     pivot_ = tracer_.origin() + V3d(middle.object >= 0 ? middle.position : V3f(0.0f));
   }
   if (mode_.reuse) {
-    moved ? shading_.see(tracer_, seen_) : shading_.rest();
+    moved_ ? shading_.see(tracer_, seen_) : shading_.rest();
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
     tracer_.improve(std::max(0.0, share_of_records * left));
     trace_within(frame_time - seconds_since(start) - fixed_seconds_);
   } else {
-    if (moved) shading_.see(tracer_, seen_);
+    if (moved_) shading_.see(tracer_, seen_);
     shading_.forget();
     tracer_.improve(share_of_records * frame_time);
     trace_all();

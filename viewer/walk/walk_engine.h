@@ -54,6 +54,7 @@ class WalkEngine {
   LiveTracer tracer_;
   ShadingCache shading_;
   std::optional<Camera> last_;
+  bool moved_ = false;
   std::uint32_t frame_ = 0;
   double sample_seconds_;         // of one sample, as measured
   double fixed_seconds_ = 0.005;  // of what is done once a frame after tracing, as measured

@@ -1,0 +1,135 @@
+#include "viewer/walk/walk_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "cornell_scene.h"
+#include "test_scenes.h"
+#include "viewer/walk/camera_path.h"
+
+namespace lumivec::test {
+namespace {
+
+constexpr std::uint32_t all_terms = (1u << term_count) - 1;
+constexpr double long_frame = 1e3;  // seconds: every pixel is traced
+
+RenderSettings walk_settings(int size) {
+  return square(size, 1, 5);
+}
+
+// At rest the picture becomes that of a still.
+TEST(walk_engine, resting_converges_to_the_still) {
+  const Scene scene = cornell_scene();
+  const Camera camera = cornell_camera();
+  const Framebuffer still = render_clean(scene, camera, square(24, 512));
+  for (const bool light_vectors : {false, true}) {
+    SCOPED_TRACE(light_vectors);
+    WalkEngine engine(scene, walk_settings(24), {true, light_vectors});
+    std::vector<Color> picture;
+    for (int i = 0; i < 128; ++i) engine.advance(camera, long_frame, all_terms, picture);
+    const Mean d = mean_difference(picture, beauty(still));
+    const double level = mean_of(beauty(still), 1).value;
+    EXPECT_NEAR(d.value, 0.0, sigmas * d.error + (light_vectors ? 0.01 : 0.0) * level);
+    EXPECT_LT(d.error, 0.05 * level) << "too noisy to tell";
+  }
+}
+
+// Terms are chosen without any tracing, and add up.
+TEST(walk_engine, layers_sum_to_the_picture) {
+  const Scene scene = cornell_scene();
+  WalkEngine engine(scene, walk_settings(24), {});
+  std::vector<Color> picture, layer;
+  const WalkEngine::Frame frame = engine.advance(cornell_camera(), long_frame, all_terms, picture);
+  EXPECT_EQ(frame.holes, 0u);
+  std::vector<Color> sum(picture.size(), Color(0.0f));
+  for (std::size_t t = 0; t < term_count; ++t) {
+    engine.layer(static_cast<Term>(t), layer);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += layer[i];
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(sum[i][c], picture[i][c], 1e-5f * (1.0f + picture[i][c]));
+  }
+}
+
+// A board of two unlit squares before a third: what is carried over keeps to its surface, and what
+// comes into view is filled from nothing else once it is traced.
+TEST(walk_engine, edges_stay_exact_while_the_eye_moves) {
+  Scene scene;
+  const auto flat = [&](const Mesh& mesh, const Color& color) {
+    Material material = emitter(color, true);
+    add_mesh(scene, mesh, material);
+  };
+  flat(quad({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}), Color(1.0f, 0.0f, 0.0f));
+  flat(quad({-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}), Color(0.0f, 1.0f, 0.0f));
+  const Camera camera = perspective_camera({0, 0, 4}, {0, 0, 0}, 0.6);
+  WalkEngine engine(scene, walk_settings(48), {true, false});
+  const std::vector<Camera> path =
+      camera_path(parse_camera_path("--path", "orbit:24"), camera, V3d(0.0), 25);
+  std::vector<Color> picture;
+  engine.advance(path[0], long_frame, 1u << unsigned(Term::emitted), picture);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    // As few samples as the engine takes; pixel centres must show what a ray through them meets.
+    engine.advance(path[i], 1e-6, 1u << unsigned(Term::emitted), picture);
+    LiveTracer truth(scene, walk_settings(48));
+    truth.set_view(path[i], 48, 48);
+    std::vector<VisiblePoint> points;
+    truth.see(points);
+    int wrong = 0;
+    for (std::size_t k = 0; k < picture.size(); ++k) {
+      const bool green = points[k].object == 1;
+      if ((picture[k].y > picture[k].x) != green) ++wrong;
+    }
+    EXPECT_LE(wrong, 2) << "of " << picture.size() << " pixels in frame " << i;
+  }
+}
+
+TEST(shading_cache, traces_about_as_many_pixels_as_asked) {
+  const Scene scene = cornell_scene();
+  LiveTracer tracer(scene, walk_settings(64));
+  tracer.set_view(cornell_camera(), 64, 64);
+  std::vector<VisiblePoint> seen;
+  tracer.see(seen);
+  ShadingCache cache(64, 64);
+  cache.see(tracer, seen);
+  std::vector<LiveRequest> requests;
+  for (const std::size_t count : {50u, 400u, 4096u}) {
+    cache.rest();
+    cache.choose(count, requests);
+    EXPECT_NEAR(double(requests.size()), double(count), 0.02 * double(count) + 16.0);
+    std::set<std::uint32_t> pixels;
+    std::array<int, 4> quarters{};
+    for (const LiveRequest& r : requests) {
+      EXPECT_TRUE(pixels.insert(r.pixel).second) << "twice in a frame";
+      ++quarters[std::size_t((r.pixel % 64 >= 32 ? 1 : 0) + (r.pixel / 64 >= 32 ? 2 : 0))];
+    }
+    for (const int n : quarters) EXPECT_NEAR(n, double(count) / 4.0, 0.1 * double(count) + 8.0);
+  }
+}
+
+// What has been traced waits; what shows nothing yet comes first.
+TEST(shading_cache, untraced_pixels_come_first) {
+  const Scene scene = cornell_scene();
+  LiveTracer tracer(scene, walk_settings(32));
+  tracer.set_view(cornell_camera(), 32, 32);
+  std::vector<VisiblePoint> seen;
+  tracer.see(seen);
+  ShadingCache cache(32, 32);
+  cache.see(tracer, seen);
+  std::vector<LiveRequest> requests;
+  std::vector<LiveSample> samples;
+  cache.choose(512, requests);
+  tracer.trace(requests, true, samples);
+  cache.add(samples);
+  EXPECT_EQ(cache.hole_count(), 1024 - requests.size());
+  std::set<std::uint32_t> traced;
+  for (const LiveRequest& r : requests) traced.insert(r.pixel);
+  cache.rest();
+  cache.choose(256, requests);
+  for (const LiveRequest& r : requests) EXPECT_EQ(traced.count(r.pixel), 0u);
+}
+
+}  // namespace
+}  // namespace lumivec::test
