@@ -92,9 +92,8 @@ TEST(camera_path, refuses_what_is_no_path) {
   EXPECT_THROW(parse_camera_path("--path", "orbit"), UsageError);
   EXPECT_THROW(parse_camera_path("--path", "dolly:nan"), UsageError);
   const Camera camera = perspective_camera({0, 0, 5}, {0, 0, 0}, 0.7);
-  EXPECT_THROW(
-      camera_path(parse_camera_path("--path", "no_such_file.json"), camera, V3d(0.0), 2),
-      CommandError);
+  EXPECT_THROW(camera_path(parse_camera_path("--path", "no_such_file.json"), camera, V3d(0.0), 2),
+               CommandError);
 }
 
 }  // namespace
