@@ -27,7 +27,7 @@ constexpr HemisphereCells first_cells = fineness[0];
 constexpr std::uint32_t most_passes = 4096;
 // Records whose own noise is still above so many times the error take up to so many times more.
 constexpr double most_noise = 4.0;
-constexpr std::uint32_t noisy_growth = 4;
+constexpr std::uint32_t noisy_growth = 16;
 // Records darker than this share of their mean are judged as if they had it.
 constexpr float dark_share = 0.02f;
 // Those that have met no light at all after so many times their hemispheres are dark.
