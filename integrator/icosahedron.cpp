@@ -1,9 +1,12 @@
 #include "integrator/icosahedron.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
+
+#include "integrator/lanes.h"
 
 namespace lumivec {
 
@@ -67,15 +70,19 @@ Icosahedron::Icosahedron() {
   }
   assert(count == icosahedron_faces);
 
-  // Neighbours are the three faces whose centres are nearest.
+  // Neighbours are the three faces whose centres are nearest, and the planes half-way to them are
+  // those through the edges.
   for (std::size_t f = 0; f < icosahedron_faces; ++f) {
     std::array<std::uint8_t, icosahedron_faces> order;
     for (std::size_t g = 0; g < icosahedron_faces; ++g) order[g] = static_cast<std::uint8_t>(g);
-    std::sort(order.begin(), order.end(), [&](std::uint8_t a, std::uint8_t b) {
-      return centers_[f].dot(centers_[a]) > centers_[f].dot(centers_[b]);
+    std::sort(order.begin(), order.end(), [&](std::uint8_t g, std::uint8_t h) {
+      return centers_[f].dot(centers_[g]) > centers_[f].dot(centers_[h]);
     });
-    std::copy_n(order.begin() + 1, 3, neighbours_[f].begin());
-    neighbour_distance_ = (centers_[f] - centers_[order[1]]).length();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const V3f normal = (centers_[f] - centers_[order[i + 1]]).normalized();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        edges_[f / width][i][axis][f % width] = normal[static_cast<int>(axis)];
+    }
   }
 
   // Parents have lower numbers than children.
@@ -129,16 +136,20 @@ DirectionCone Icosahedron::cone(const V3f& direction, float min_cosine) const {
   constexpr float everything = 2.0f;
   cone.margin =
       cosine <= 0.0f ? everything : std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) + rounding;
-  std::array<float, icosahedron_faces> cosines;
-  for (std::size_t f = 0; f < icosahedron_faces; ++f) cosines[f] = centers_[f].dot(direction);
-  // A face is on its own side of the planes half-way to its neighbours; (c_f − c_g) / |c_f − c_g|
-  // are their normals.
-  const float margin = cone.margin * neighbour_distance_ + rounding;
-  for (std::size_t f = 0; f < icosahedron_faces; ++f) {
-    float nearest = cosines[neighbours_[f][0]];
-    for (const std::uint8_t g : neighbours_[f]) nearest = std::max(nearest, cosines[g]);
-    if (cosines[f] >= nearest - margin)
-      cone.roots[cone.root_count++] = static_cast<std::uint8_t>(f);
+  for (std::size_t group = 0; group < groups; ++group) {
+    std::uint32_t touched = ~0u;
+    for (const std::array<Lane, 3>& normal : edges_[group]) {
+      Lane inside;
+      for (std::size_t i = 0; i < width; ++i) {
+        inside[i] = normal[0][i] * direction.x + normal[1][i] * direction.y +
+                    normal[2][i] * direction.z + cone.margin;
+      }
+      touched &= not_negative(inside);
+    }
+    for (; touched != 0; touched &= touched - 1) {
+      const std::size_t face = group * width + static_cast<std::size_t>(std::countr_zero(touched));
+      if (face < icosahedron_faces) cone.roots[cone.root_count++] = static_cast<std::uint8_t>(face);
+    }
   }
   return cone;
 }

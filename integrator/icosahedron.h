@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -52,6 +53,11 @@ class Icosahedron {
   // The face of a level, [0, deepest_face_level], that a unit direction is in.
   std::uint32_t face_of(const V3f& direction, int level) const;
 
+  // The faces of a level have consecutive numbers, those of the next one that are inside them too.
+  static constexpr std::uint32_t first_face(int level) {
+    return icosahedron_faces * ((1u << (2 * level)) - 1) / 3;
+  }
+  static constexpr std::uint32_t face_count(int level) { return icosahedron_faces << (2 * level); }
   static constexpr std::uint32_t child(std::uint32_t face, std::uint32_t which) {
     return icosahedron_faces + 4 * face + which;
   }
@@ -77,10 +83,15 @@ class Icosahedron {
   // left is the child in the middle.
   using Cut = std::array<V3f, 3>;
 
+  // Of eight faces: the planes to their three neighbours, by coordinates.
+  static constexpr std::size_t width = 8;
+  static constexpr std::size_t groups = (icosahedron_faces + width - 1) / width;
+  using Lane = std::array<float, width>;
+  using Edges = std::array<std::array<Lane, 3>, 3>;
+
   std::array<std::array<V3f, 3>, icosahedron_faces> corners_;
   std::array<V3f, icosahedron_faces> centers_;
-  std::array<std::array<std::uint8_t, 3>, icosahedron_faces> neighbours_;
-  float neighbour_distance_ = 0.0f;  // of the centres of two neighbours
+  std::array<Edges, groups> edges_{};
   std::vector<Cut> cuts_;
 };
 

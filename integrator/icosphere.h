@@ -1,12 +1,17 @@
 // Recursive icosahedra that hold records by direction (paper, section 3.2): the last two of the
-// cache's five dimensions. A face that is full is replaced by its four children. Records are
-// inserted while others look, and look-ups never block.
+// cache's five dimensions. Records are inserted while others look, and look-ups never block.
 //
-// Many icospheres share one store. One of up to sixteen records is a list of them and nothing else,
-// 128 bytes; beyond, it costs 80 bytes for its faces, 8 bytes a record, and as much again or twice
-// that for places that are free or were given up by divisions.
+// Many icospheres share one store. Records that are new are in lists, one for a face; a face that is
+// full is replaced by its four children. A sphere of up to sixteen of them is a list and nothing
+// else, 128 bytes; beyond, it costs 80 bytes for its faces, 8 bytes a record, and as much again or
+// twice that for places that are free or were given up by divisions.
+//
+// pack() sorts all records by sphere and face: 4 bytes a record for its direction, and up to 8 for a
+// table of where the faces of a level begin. A look-up then reads a piece of the table and the
+// directions of the faces that its cone touches, and what it finds is close together.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -14,9 +19,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <vector>
 
+#include "integrator/cone_faces.h"
 #include "integrator/icosahedron.h"
+#include "integrator/large_pages.h"
 #include "integrator/packed_direction.h"
+#include "integrator/prefetch.h"
 #include "integrator/stable_array.h"
 #include "loader/scene.h"
 
@@ -30,16 +39,25 @@ class Icosphere {
  private:
   friend class IcosphereStore;
   static constexpr std::uint32_t empty = ~0u;
-  std::atomic<std::uint32_t> link_{empty};
+  std::atomic<std::uint32_t> link_{empty};  // to new records
+  // Packed ones, and a table for the faces of a level if they are not so few that all are looked
+  // at.
+  struct Packed {
+    static constexpr std::uint32_t few = 7;
+    std::uint32_t begin = 0, end = 0;
+    std::uint32_t table : 29 = 0, level : 3 = few;
+  };
+  static_assert(deepest_face_level < static_cast<int>(Packed::few));
+  Packed packed_;
 };
 
 class IcosphereStore {
  public:
-  // A face with more records than this is divided. Their directions and numbers are two cache
+  // A face with more new records than this is divided. Their directions and numbers are two cache
   // lines.
   static constexpr std::uint32_t face_capacity = 16;
 
-  // Adds a record, by a number of the caller's that no other record of the sphere has, below 2^32 −
+  // Adds a record, by a number of the caller's that no other record of the store has, below 2^32 −
   // 1. direction: unit; kept with packed_direction_error. Thread-safe.
   void insert(Icosphere& sphere, const V3f& direction, std::uint32_t record);
 
@@ -48,29 +66,48 @@ class IcosphereStore {
   template <typename Visit>
   void for_each_within(const Icosphere& sphere, const DirectionCone& cone,
                        const Visit& visit) const {
-    const Start<int> start = {&sphere, 0};
-    for_each_within(&start, 1, cone,
+    ConeFaces faces(cone);
+    const Start<int> start = {&sphere, &faces, 0};
+    for_each_within(&start, 1,
                     [&](std::uint32_t record, float cosine, int) { visit(record, cosine); });
   }
 
-  // Of several spheres at once: visit(record, cosine, the sphere's tag). Memory is what takes the
-  // time; all spheres are searched in step, so that the processor waits for them at once and not
-  // for one after the other.
+  // Of several spheres at once, up to 2^16: visit(record, cosine, the sphere's tag), one sphere
+  // after the other. Memory is what takes the time; all spheres are searched in step, so that the
+  // processor waits for them at once.
   template <typename Tag>
   struct Start {
     const Icosphere* sphere;
+    ConeFaces* cone;
     Tag tag;
   };
   template <typename Tag, typename Visit>
-  void for_each_within(const Start<Tag>* starts, std::size_t count, const DirectionCone& cone,
-                       const Visit& visit) const {
-    Search<Tag, Visit> search(*this, cone, visit);
-    for (std::size_t i = 0; i < count; ++i)
-      search.follow(starts[i].sphere->link_, {whole_sphere, 0}, starts[i].tag);
-    search.finish();
+  void for_each_within(const Start<Tag>* starts, std::size_t count, const Visit& visit) const {
+    Step step(*this);
+    const Search<Tag, Visit> search{*this, starts, visit};
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!step.has_room()) search.finish(step);
+      const auto start = static_cast<std::uint16_t>(i);
+      const Icosphere& sphere = *starts[i].sphere;
+      step.add_packed(sphere.packed_, *starts[i].cone, start);
+      step.follow(sphere.link_, {whole_sphere, 0}, starts[i].cone->cone(), start);
+    }
+    search.finish(step);
   }
 
-  std::size_t bytes() const { return faces_.bytes() + lists_.bytes(); }
+  // Puts all spheres of the store into an order, and sorts all records by sphere and direction and
+  // numbers them anew: 0, 1, 2, …. order: the former indices of the spheres, by the new ones. count:
+  // of all records. The former numbers of the records, by the new ones. Not while others use the
+  // store.
+  std::vector<std::uint32_t> pack(StableArray<Icosphere>& spheres,
+                                  const std::vector<std::uint32_t>& order, std::uint32_t count);
+  // Records that are packed; the others are new.
+  std::uint32_t packed_count() const { return packed_count_; }
+
+  std::size_t bytes() const {
+    return faces_.bytes() + lists_.bytes() + directions_.size() * sizeof(directions_[0]) +
+           tables_.size() * sizeof(tables_[0]);
+  }
 
   // Every icosphere that used the store must be made anew. Not while others use the store.
   void clear();
@@ -78,6 +115,7 @@ class IcosphereStore {
  private:
   // A link is what a sphere or a face holds: nothing, the index of a list and whether it fills more
   // than one cache line, or the index of the first of its faces, 20 of a sphere and 4 of a face.
+  using Packed = Icosphere::Packed;
   static constexpr std::uint32_t empty = Icosphere::empty;
   static constexpr std::uint32_t divided_bit = 1u << 31;
   static constexpr std::uint32_t longer_bit = 1u << 30;
@@ -120,108 +158,211 @@ class IcosphereStore {
   }
   std::uint32_t part_of(const Place& place, const V3f& direction, std::uint32_t record) const;
 
+  // Directions are compared eight at a time, whether all are there or not.
+  static constexpr std::uint32_t width = 8;
+  using Directions = std::array<std::uint32_t, width>;
+  struct Near {
+    std::uint32_t mask;  // directions that are in the cone or, by rounding, next to it
+    std::array<float, width> product, length2;
+
+    float cosine(std::size_t i) const { return product[i] / std::sqrt(length2[i]); }
+  };
+  static Near compare(const Directions& directions, const DirectionCone& cone) {
+    const float signed_square = cone.min_cosine * std::abs(cone.min_cosine) - rounding;
+    Near near;
+    std::array<float, width> above;
+    for (std::uint32_t i = 0; i < width; ++i) {
+      const V3f v = unpack_octahedral(directions[i]);
+      near.product[i] = v.dot(cone.direction);
+      near.length2[i] = v.length2();
+      above[i] = near.product[i] * std::abs(near.product[i]) - signed_square * near.length2[i];
+    }
+    near.mask = not_negative(above);
+    return near;
+  }
+
   // Calls visit(record, cosine) for the records of a list that are in the cone.
   template <typename Visit>
-  void scan(std::uint32_t list, const DirectionCone& cone, const Visit& visit) const {
+  void scan_list(std::uint32_t list, const DirectionCone& cone, const Visit& visit) const {
     const List& l = lists_[list];
-    // Eight at a time, whether all are there or not: faster than to know where the list ends.
-    constexpr std::uint32_t width = line_capacity;
-    const float signed_square = cone.min_cosine * std::abs(cone.min_cosine) - rounding;
     for (std::uint32_t first = 0; first < face_capacity; first += width) {
       std::array<std::uint64_t, width> entries;
+      Directions directions;
       for (std::uint32_t i = 0; i < width; ++i)
         entries[i] = l.entries[first + i].load(std::memory_order_acquire);
-      std::array<float, width> product, length2, above;
-      for (std::uint32_t i = 0; i < width; ++i) {
-        const V3f v = unpack_octahedral(static_cast<std::uint32_t>(entries[i] >> 32));
-        product[i] = v.dot(cone.direction);
-        length2[i] = v.length2();
-        above[i] = product[i] * std::abs(product[i]) - signed_square * length2[i];
-      }
-      for (std::uint32_t near = not_negative(above); near != 0; near &= near - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(near));
+      for (std::uint32_t i = 0; i < width; ++i)
+        directions[i] = static_cast<std::uint32_t>(entries[i] >> 32);
+      const Near near = compare(directions, cone);
+      for (std::uint32_t mask = near.mask; mask != 0; mask &= mask - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(mask));
         if (entries[i] == no_entry) return;
-        const float cosine = product[i] / std::sqrt(length2[i]);
+        const float cosine = near.cosine(i);
         if (cosine >= cone.min_cosine) visit(static_cast<std::uint32_t>(entries[i]), cosine);
       }
       if (entries[width - 1] == no_entry) return;
     }
   }
+  // Likewise of packed records [begin, end).
+  template <typename Visit>
+  void scan_packed(std::uint32_t begin, std::uint32_t end, const DirectionCone& cone,
+                   const Visit& visit) const {
+    for (std::uint32_t first = begin; first < end; first += width) {
+      Directions directions;
+      std::copy_n(directions_.data() + first, width, directions.begin());
+      const Near near = compare(directions, cone);
+      const std::uint32_t there = end - first >= width ? ~0u : (1u << (end - first)) - 1;
+      for (std::uint32_t mask = near.mask & there; mask != 0; mask &= mask - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
+        const float cosine = near.cosine(i);
+        if (cosine >= cone.min_cosine) visit(first + i, cosine);
+      }
+    }
+  }
 
-  // Faces and lists wait in queues until what they read has been fetched.
-  template <typename Tag, typename Visit>
-  class Search {
+  // What a look-up has come to, whose memory has been asked for.
+  enum class Kind : std::uint16_t {
+    packed_table,  // entries [a, b] of tables_
+    packed,        // directions [a, b)
+    face,          // a of faces_, at place {b, bits}
+    list,          // a
+  };
+  struct Waiting {
+    std::uint32_t a, b;
+    std::uint32_t bits;
+    std::uint16_t start;
+    Kind kind;
+  };
+
+  // The next step of all that waits, in its order. Directions and lists, where a search ends, wait
+  // for those that have farther to go: records come in the same order whatever else is searched.
+  class Step {
    public:
-    Search(const IcosphereStore& store, const DirectionCone& cone, const Visit& visit)
-        : store_(store), cone_(cone), visit_(visit) {}
+    explicit Step(const IcosphereStore& store) : store_(store) {}
 
-    void follow(const std::atomic<std::uint32_t>& from, const Place& place, const Tag& tag) {
+    bool has_room() const { return count_ + most_added <= capacity; }
+    // Some go on.
+    bool goes_on() const { return goes_on_; }
+    const Waiting* begin() const { return items_; }
+    const Waiting* end() const { return items_ + count_; }
+    void clear() {
+      count_ = 0;
+      goes_on_ = false;
+    }
+
+    void add_packed(const Packed& sphere, ConeFaces& cone, std::uint16_t start) {
+      if (sphere.level == Packed::few) return add_directions(sphere.begin, sphere.end, start);
+      const int level = static_cast<int>(sphere.level);
+      cone.find(level);
+      for (const ConeFaces::Range* r = cone.begin(level); r != cone.end(level); ++r) {
+        const std::uint32_t a = sphere.table + r->begin, b = sphere.table + r->end;
+        __builtin_prefetch(&store_.tables_[a]);
+        __builtin_prefetch(&store_.tables_[b]);
+        add({a, b, 0, start, Kind::packed_table});
+      }
+    }
+    void follow(const std::atomic<std::uint32_t>& from, const Place& place,
+                const DirectionCone& cone, std::uint16_t start) {
       const std::uint32_t link = from.load(std::memory_order_acquire);
       if (link == empty) return;
-      if (!divided(link)) return add_list(link, tag);
+      if (!divided(link)) {
+        const List& l = store_.lists_[link & ~longer_bit];
+        __builtin_prefetch(&l.entries[0]);
+        if ((link & longer_bit) != 0) __builtin_prefetch(&l.entries[line_capacity]);
+        return add({link & ~longer_bit, 0, 0, start, Kind::list});
+      }
       const std::uint32_t first = link & ~divided_bit;
       if (place.face == whole_sphere) {
-        for (std::uint32_t i = 0; i < cone_.root_count; ++i)
-          add_face(first + cone_.roots[i], part(place, cone_.roots[i]), tag);
+        for (std::uint32_t i = 0; i < cone.root_count; ++i)
+          add_face(first + cone.roots[i], part(place, cone.roots[i]), start);
         return;
       }
       std::uint32_t touched =
-          by_direction(place) ? store_.geometry_.children_touched(place.face, cone_) : 15;
+          by_direction(place) ? store_.geometry_.children_touched(place.face, cone) : 15;
       for (; touched != 0; touched &= touched - 1) {
         const auto i = static_cast<std::uint32_t>(std::countr_zero(touched));
-        add_face(first + i, part(place, i), tag);
+        add_face(first + i, part(place, i), start);
       }
     }
-
-    void finish() {
-      while (oldest_face_ != face_count_) {
-        const WaitingFace f = faces_[oldest_face_++ % capacity];
-        follow(store_.faces_[f.face].link, f.place, f.tag);
+    void advance(const Waiting& w, const DirectionCone& cone) {
+      switch (w.kind) {
+        case Kind::packed_table:
+          return add_directions(store_.tables_[w.a], store_.tables_[w.b], w.start);
+        case Kind::face: return follow(store_.faces_[w.a].link, {w.b, w.bits}, cone, w.start);
+        case Kind::packed:
+        case Kind::list: return add(w);
       }
-      scan_lists();
     }
 
    private:
-    static constexpr std::uint32_t capacity = 64;
-    struct WaitingFace {
-      std::uint32_t face;
-      Place place;
-      Tag tag;
-    };
-    struct WaitingList {
-      std::uint32_t list;
-      Tag tag;
-    };
+    static constexpr std::size_t capacity = 256;
+    // Of one that was there.
+    static constexpr std::size_t most_added = ConeFaces::most_ranges + icosahedron_faces;
 
-    void add_face(std::uint32_t face, const Place& place, const Tag& tag) {
-      const auto& link = store_.faces_[face].link;
-      if (face_count_ - oldest_face_ == capacity) return follow(link, place, tag);
-      __builtin_prefetch(&link);
-      faces_[face_count_++ % capacity] = {face, place, tag};
+    void add(const Waiting& w) {
+      items_[count_++] = w;
+      goes_on_ |= w.kind == Kind::packed_table || w.kind == Kind::face;
     }
-    void add_list(std::uint32_t link, const Tag& tag) {
-      const List& l = store_.lists_[link & ~longer_bit];
-      __builtin_prefetch(&l.entries[0]);
-      if ((link & longer_bit) != 0) __builtin_prefetch(&l.entries[line_capacity]);
-      lists_[list_count_++] = {link & ~longer_bit, tag};
-      if (list_count_ == capacity) scan_lists();
+    void add_directions(std::uint32_t begin, std::uint32_t end, std::uint16_t start) {
+      if (begin == end) return;
+      constexpr std::uint32_t in_line = cache_line / sizeof(std::uint32_t);
+      for (std::uint32_t i = begin; i < end; i += in_line)
+        __builtin_prefetch(&store_.directions_[i]);
+      __builtin_prefetch(&store_.directions_[end - 1]);
+      add({begin, end, 0, start, Kind::packed});
     }
-    void scan_lists() {
-      for (std::uint32_t i = 0; i < list_count_; ++i) {
-        store_.scan(lists_[i].list, cone_, [&](std::uint32_t record, float cosine) {
-          visit_(record, cosine, lists_[i].tag);
-        });
-      }
-      list_count_ = 0;
+    void add_face(std::uint32_t face, const Place& place, std::uint16_t start) {
+      __builtin_prefetch(&store_.faces_[face].link);
+      add({face, place.face, place.bits, start, Kind::face});
     }
 
     const IcosphereStore& store_;
-    const DirectionCone& cone_;
-    const Visit& visit_;
-    std::uint32_t oldest_face_ = 0, face_count_ = 0, list_count_ = 0;
-    WaitingFace faces_[capacity];
-    WaitingList lists_[capacity];
+    std::size_t count_ = 0;
+    bool goes_on_ = false;
+    Waiting items_[capacity];
   };
+
+  template <typename Tag, typename Visit>
+  struct Search {
+    const IcosphereStore& store;
+    const Start<Tag>* starts;
+    const Visit& visit;
+
+    // Goes on with what waits until it is found, and leaves nothing.
+    void finish(Step& step) const {
+      if (step.goes_on()) {
+        Step next(store);
+        for (const Waiting& w : step) {
+          if (!next.has_room()) finish(next);
+          next.advance(w, starts[w.start].cone->cone());
+        }
+        finish(next);
+      } else {
+        for (const Waiting& w : step) scan(w);
+      }
+      step.clear();
+    }
+    void scan(const Waiting& w) const {
+      const Start<Tag>& start = starts[w.start];
+      const auto found = [&](std::uint32_t record, float cosine) {
+        visit(record, cosine, start.tag);
+      };
+      if (w.kind == Kind::list) {
+        store.scan_list(w.a, start.cone->cone(), found);
+      } else {
+        store.scan_packed(w.a, w.b, start.cone->cone(), found);
+      }
+    }
+  };
+
+  // A record that is about to be packed.
+  struct Entry {
+    std::uint64_t key;  // what it is sorted by
+    std::uint32_t direction, record;
+  };
+  // Adds the new entries that a link leads to.
+  void gather(std::uint32_t link, const Place& place, std::vector<Entry>& entries) const;
+  // Sorts a sphere's entries and adds its table.
+  void tabulate(Packed& sphere, std::vector<Entry>& entries);
 
   bool append(std::atomic<std::uint32_t>& link, std::uint64_t entry);
   std::uint32_t divide(const List& list, const Place& place);
@@ -229,6 +370,9 @@ class IcosphereStore {
   const Icosahedron& geometry_ = icosahedron();
   StableArray<Face> faces_;
   StableArray<List> lists_;
+  // Packed records, and where in them the faces of a level begin, for the spheres that have many.
+  std::vector<std::uint32_t, LargePageAllocator<std::uint32_t>> directions_, tables_;
+  std::uint32_t packed_count_ = 0;
   // Those who insert take turns, those of one sphere at least.
   static constexpr std::size_t lock_count = 64;
   std::array<std::mutex, lock_count> locks_;
