@@ -23,6 +23,7 @@
 
 #include "integrator/cone_faces.h"
 #include "integrator/icosahedron.h"
+#include "integrator/lanes.h"
 #include "integrator/large_pages.h"
 #include "integrator/packed_direction.h"
 #include "integrator/prefetch.h"
@@ -84,7 +85,7 @@ class IcosphereStore {
   template <typename Tag, typename Visit>
   void for_each_within(const Start<Tag>* starts, std::size_t count, const Visit& visit) const {
     Step step(*this);
-    const Search<Tag, Visit> search{*this, starts, visit};
+    Search<Tag, Visit> search(*this, starts, visit);
     for (std::size_t i = 0; i < count; ++i) {
       if (!step.has_room()) search.finish(step);
       const auto start = static_cast<std::uint16_t>(i);
@@ -93,6 +94,7 @@ class IcosphereStore {
       step.follow(sphere.link_, {whole_sphere, 0}, starts[i].cone->cone(), start);
     }
     search.finish(step);
+    search.visit_found();
   }
 
   // Puts all spheres of the store into an order, and sorts all records by sphere and direction and
@@ -160,64 +162,35 @@ class IcosphereStore {
 
   // Directions are compared eight at a time, whether all are there or not.
   static constexpr std::uint32_t width = 8;
-  using Directions = std::array<std::uint32_t, width>;
-  struct Near {
-    std::uint32_t mask;  // directions that are in the cone or, by rounding, next to it
-    std::array<float, width> product, length2;
+  // Records whose directions are in a cone or, by rounding, next to it.
+  class Found {
+   public:
+    static constexpr std::size_t capacity = 256;
+    std::size_t count = 0;
+    std::array<std::uint32_t, capacity> record, start;
+    std::array<float, capacity> product, length2;
 
-    float cosine(std::size_t i) const { return product[i] / std::sqrt(length2[i]); }
+    bool full() const { return count + width > capacity; }
+    // Of eight directions and their records those of the mask that are in the cone. Not if it is
+    // full.
+    void add(const std::uint32_t* directions, const std::uint32_t* records, std::uint32_t mask,
+             const DirectionCone& cone, std::uint32_t of_start) {
+      const float signed_square = cone.min_cosine * std::abs(cone.min_cosine) - rounding;
+      std::array<float, width> dot, square, above;
+      for (std::uint32_t i = 0; i < width; ++i) {
+        const V3f v = unpack_octahedral(directions[i]);
+        dot[i] = v.dot(cone.direction);
+        square[i] = v.length2();
+        above[i] = dot[i] * std::abs(dot[i]) - signed_square * square[i];
+      }
+      const Chosen chosen(not_negative(above) & mask);
+      chosen.store(records, record.data() + count);
+      chosen.store(dot.data(), product.data() + count);
+      chosen.store(square.data(), length2.data() + count);
+      std::fill_n(start.data() + count, width, of_start);
+      count += chosen.count();
+    }
   };
-  static Near compare(const Directions& directions, const DirectionCone& cone) {
-    const float signed_square = cone.min_cosine * std::abs(cone.min_cosine) - rounding;
-    Near near;
-    std::array<float, width> above;
-    for (std::uint32_t i = 0; i < width; ++i) {
-      const V3f v = unpack_octahedral(directions[i]);
-      near.product[i] = v.dot(cone.direction);
-      near.length2[i] = v.length2();
-      above[i] = near.product[i] * std::abs(near.product[i]) - signed_square * near.length2[i];
-    }
-    near.mask = not_negative(above);
-    return near;
-  }
-
-  // Calls visit(record, cosine) for the records of a list that are in the cone.
-  template <typename Visit>
-  void scan_list(std::uint32_t list, const DirectionCone& cone, const Visit& visit) const {
-    const List& l = lists_[list];
-    for (std::uint32_t first = 0; first < face_capacity; first += width) {
-      std::array<std::uint64_t, width> entries;
-      Directions directions;
-      for (std::uint32_t i = 0; i < width; ++i)
-        entries[i] = l.entries[first + i].load(std::memory_order_acquire);
-      for (std::uint32_t i = 0; i < width; ++i)
-        directions[i] = static_cast<std::uint32_t>(entries[i] >> 32);
-      const Near near = compare(directions, cone);
-      for (std::uint32_t mask = near.mask; mask != 0; mask &= mask - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(mask));
-        if (entries[i] == no_entry) return;
-        const float cosine = near.cosine(i);
-        if (cosine >= cone.min_cosine) visit(static_cast<std::uint32_t>(entries[i]), cosine);
-      }
-      if (entries[width - 1] == no_entry) return;
-    }
-  }
-  // Likewise of packed records [begin, end).
-  template <typename Visit>
-  void scan_packed(std::uint32_t begin, std::uint32_t end, const DirectionCone& cone,
-                   const Visit& visit) const {
-    for (std::uint32_t first = begin; first < end; first += width) {
-      Directions directions;
-      std::copy_n(directions_.data() + first, width, directions.begin());
-      const Near near = compare(directions, cone);
-      const std::uint32_t there = end - first >= width ? ~0u : (1u << (end - first)) - 1;
-      for (std::uint32_t mask = near.mask & there; mask != 0; mask &= mask - 1) {
-        const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
-        const float cosine = near.cosine(i);
-        if (cosine >= cone.min_cosine) visit(first + i, cosine);
-      }
-    }
-  }
 
   // What a look-up has come to, whose memory has been asked for.
   enum class Kind : std::uint16_t {
@@ -304,10 +277,12 @@ class IcosphereStore {
     }
     void add_directions(std::uint32_t begin, std::uint32_t end, std::uint16_t start) {
       if (begin == end) return;
+      // Mostly these two lines are all.
       constexpr std::uint32_t in_line = cache_line / sizeof(std::uint32_t);
-      for (std::uint32_t i = begin; i < end; i += in_line)
-        __builtin_prefetch(&store_.directions_[i]);
+      __builtin_prefetch(&store_.directions_[begin]);
       __builtin_prefetch(&store_.directions_[end - 1]);
+      for (std::uint32_t i = begin + in_line; i + in_line < end; i += in_line)
+        __builtin_prefetch(&store_.directions_[i]);
       add({begin, end, 0, start, Kind::packed});
     }
     void add_face(std::uint32_t face, const Place& place, std::uint16_t start) {
@@ -322,36 +297,79 @@ class IcosphereStore {
   };
 
   template <typename Tag, typename Visit>
-  struct Search {
-    const IcosphereStore& store;
-    const Start<Tag>* starts;
-    const Visit& visit;
+  class Search {
+   public:
+    Search(const IcosphereStore& store, const Start<Tag>* starts, const Visit& visit)
+        : store_(store), starts_(starts), visit_(visit) {}
 
     // Goes on with what waits until it is found, and leaves nothing.
-    void finish(Step& step) const {
+    void finish(Step& step) {
       if (step.goes_on()) {
-        Step next(store);
+        Step next(store_);
         for (const Waiting& w : step) {
           if (!next.has_room()) finish(next);
-          next.advance(w, starts[w.start].cone->cone());
+          next.advance(w, starts_[w.start].cone->cone());
         }
         finish(next);
       } else {
-        for (const Waiting& w : step) scan(w);
+        for (const Waiting& w : step) {
+          if (w.kind == Kind::list) {
+            scan_list(w);
+          } else {
+            scan_packed(w);
+          }
+        }
       }
       step.clear();
     }
-    void scan(const Waiting& w) const {
-      const Start<Tag>& start = starts[w.start];
-      const auto found = [&](std::uint32_t record, float cosine) {
-        visit(record, cosine, start.tag);
-      };
-      if (w.kind == Kind::list) {
-        store.scan_list(w.a, start.cone->cone(), found);
-      } else {
-        store.scan_packed(w.a, w.b, start.cone->cone(), found);
+
+    void visit_found() {
+      for (std::size_t i = 0; i < found_.count; ++i) {
+        const Start<Tag>& start = starts_[found_.start[i]];
+        const float cosine = found_.product[i] / std::sqrt(found_.length2[i]);
+        if (cosine >= start.cone->cone().min_cosine) visit_(found_.record[i], cosine, start.tag);
+      }
+      found_.count = 0;
+    }
+
+   private:
+    void add_found(const std::uint32_t* directions, const std::uint32_t* records,
+                   std::uint32_t mask, std::uint16_t start) {
+      if (found_.full()) visit_found();
+      found_.add(directions, records, mask, starts_[start].cone->cone(), start);
+    }
+
+    void scan_list(const Waiting& w) {
+      const List& l = store_.lists_[w.a];
+      for (std::uint32_t first = 0; first < face_capacity; first += width) {
+        std::array<std::uint64_t, width> entries;
+        std::array<std::uint32_t, width> directions, records;
+        for (std::uint32_t i = 0; i < width; ++i)
+          entries[i] = l.entries[first + i].load(std::memory_order_acquire);
+        std::uint32_t there = 0;
+        for (std::uint32_t i = 0; i < width; ++i) {
+          directions[i] = static_cast<std::uint32_t>(entries[i] >> 32);
+          records[i] = static_cast<std::uint32_t>(entries[i]);
+          there |= (entries[i] != no_entry ? 1u : 0u) << i;
+        }
+        add_found(directions.data(), records.data(), there, w.start);
+        if (entries[width - 1] == no_entry) return;
       }
     }
+
+    void scan_packed(const Waiting& w) {
+      for (std::uint32_t first = w.a; first < w.b; first += width) {
+        std::array<std::uint32_t, width> records;
+        for (std::uint32_t i = 0; i < width; ++i) records[i] = first + i;
+        const std::uint32_t there = (1u << std::min(w.b - first, width)) - 1;
+        add_found(store_.directions_.data() + first, records.data(), there, w.start);
+      }
+    }
+
+    const IcosphereStore& store_;
+    const Start<Tag>* starts_;
+    const Visit& visit_;
+    Found found_;
   };
 
   // A record that is about to be packed.
