@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "integrator/lanes.h"
 
@@ -21,16 +22,19 @@ V3f midpoint(const V3f& a, const V3f& b) {
   return (a + b).normalized();
 }
 
-// The child in the middle is the triangle of the midpoints; child i otherwise keeps corner i.
+// The child in the middle is the triangle of the midpoints; the others keep a corner.
 Triangle child_triangle(const Triangle& t, std::uint32_t which) {
   const Triangle middle = {midpoint(t[1], t[2]), midpoint(t[2], t[0]), midpoint(t[0], t[1])};
-  if (which == 3) return middle;
-  Triangle child = middle;
-  child[which] = t[which];
-  // The two midpoints on the edges of this corner, in an order that keeps the orientation.
-  child[(which + 1) % 3] = middle[(which + 2) % 3];
-  child[(which + 2) % 3] = middle[(which + 1) % 3];
-  return child;
+  for (std::uint32_t corner = 0; corner < 3; ++corner) {
+    if (which != Icosahedron::corner_child(corner)) continue;
+    Triangle child = middle;
+    child[corner] = t[corner];
+    // The two midpoints on the edges of this corner, in an order that keeps the orientation.
+    child[(corner + 1) % 3] = middle[(corner + 2) % 3];
+    child[(corner + 2) % 3] = middle[(corner + 1) % 3];
+    return child;
+  }
+  return middle;
 }
 
 // The twelve corners: cyclic permutations of (0, ±1, ±golden ratio).
@@ -69,6 +73,23 @@ Icosahedron::Icosahedron() {
     }
   }
   assert(count == icosahedron_faces);
+  // Each face is a neighbour of the one before, unless that has none left: of the nearest ones, that
+  // which is nearest to the faces that are in order already leaves no gaps.
+  for (std::size_t f = 1; f < icosahedron_faces; ++f) {
+    const V3f& last = centers_[f - 1];
+    V3f sum(0.0f);
+    for (std::size_t g = 0; g < f; ++g) sum += centers_[g];
+    constexpr float small = 1e-2f;  // against the distances between faces
+    const auto closeness = [&](std::size_t g) {
+      return centers_[g].dot(last) + small * centers_[g].dot(sum);
+    };
+    std::size_t next = f;
+    for (std::size_t g = f + 1; g < icosahedron_faces; ++g) {
+      if (closeness(g) > closeness(next)) next = g;
+    }
+    std::swap(corners_[f], corners_[next]);
+    std::swap(centers_[f], centers_[next]);
+  }
 
   // Neighbours are the three faces whose centres are nearest, and the planes half-way to them are
   // those through the edges.

@@ -52,12 +52,17 @@ std::vector<std::uint32_t> IcosphereStore::pack(StableArray<Icosphere>& spheres,
   former.reserve(count);
   std::vector<Packed> packed(order.size());
   std::vector<Entry> entries;
+  std::vector<std::pair<std::uint32_t, Entry>> left;  // with the new indices of their spheres
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Icosphere& sphere = spheres[order[i]];
     entries.clear();
     for (std::uint32_t r = sphere.packed_.begin; r < sphere.packed_.end; ++r)
       entries.push_back({r, before[r], r});
     gather(sphere.link_.load(std::memory_order_relaxed), {whole_sphere, 0}, entries);
+    while (entries.size() > most_packed) {
+      left.emplace_back(static_cast<std::uint32_t>(i), entries.back());
+      entries.pop_back();
+    }
     packed[i].begin = static_cast<std::uint32_t>(former.size());
     packed[i].end = packed[i].begin + static_cast<std::uint32_t>(entries.size());
     tabulate(packed[i], entries);
@@ -66,16 +71,21 @@ std::vector<std::uint32_t> IcosphereStore::pack(StableArray<Icosphere>& spheres,
       former.push_back(entry.record);
     }
   }
-  assert(former.size() == count);
+  assert(former.size() + left.size() == count);
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     spheres[i].packed_ = packed[i];
     spheres[i].link_.store(empty, std::memory_order_relaxed);
   }
-  packed_count_ = count;
-  directions_.resize(std::size_t{count} + width);
+  packed_count_ = static_cast<std::uint32_t>(former.size());
+  directions_.resize(former.size() + width);
   tables_.shrink_to_fit();
   faces_.clear();
   lists_.clear();
+  for (const auto& [sphere, entry] : left) {
+    insert(spheres[sphere], unpack_direction(entry.direction),
+           static_cast<std::uint32_t>(former.size()));
+    former.push_back(entry.record);
+  }
   return former;
 }
 
@@ -125,12 +135,12 @@ void IcosphereStore::tabulate(Packed& sphere, std::vector<Entry>& entries) {
   }
   sphere.level = static_cast<std::uint32_t>(level) & 7;
   sphere.table = static_cast<std::uint32_t>(tables_.size()) & ((1u << 29) - 1);
-  std::uint32_t begin = sphere.begin;
+  std::uint32_t begin = 0;
   for (const std::uint32_t c : counts) {
-    tables_.push_back(begin);
+    tables_.push_back(static_cast<std::uint16_t>(begin));
     begin += c;
   }
-  tables_.push_back(begin);
+  tables_.push_back(static_cast<std::uint16_t>(begin));
 }
 
 void IcosphereStore::clear() {

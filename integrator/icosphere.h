@@ -6,7 +6,7 @@
 // else, 128 bytes; beyond, it costs 80 bytes for its faces, 8 bytes a record, and as much again or
 // twice that for places that are free or were given up by divisions.
 //
-// pack() sorts all records by sphere and face: 4 bytes a record for its direction, and up to 8 for a
+// pack() sorts all records by sphere and face: 4 bytes a record for its direction, and up to 4 for a
 // table of where the faces of a level begin. A look-up then reads a piece of the table and the
 // directions of the faces that its cone touches, and what it finds is close together.
 #pragma once
@@ -194,14 +194,13 @@ class IcosphereStore {
 
   // What a look-up has come to, whose memory has been asked for.
   enum class Kind : std::uint16_t {
-    packed_table,  // entries [a, b] of tables_
+    packed_table,  // entries a and b of tables_, of the directions from `more` on
     packed,        // directions [a, b)
-    face,          // a of faces_, at place {b, bits}
+    face,          // a of faces_, at place {b, more}
     list,          // a
   };
   struct Waiting {
-    std::uint32_t a, b;
-    std::uint32_t bits;
+    std::uint32_t a, b, more;
     std::uint16_t start;
     Kind kind;
   };
@@ -230,7 +229,7 @@ class IcosphereStore {
         const std::uint32_t a = sphere.table + r->begin, b = sphere.table + r->end;
         __builtin_prefetch(&store_.tables_[a]);
         __builtin_prefetch(&store_.tables_[b]);
-        add({a, b, 0, start, Kind::packed_table});
+        add({a, b, sphere.begin, start, Kind::packed_table});
       }
     }
     void follow(const std::atomic<std::uint32_t>& from, const Place& place,
@@ -259,8 +258,8 @@ class IcosphereStore {
     void advance(const Waiting& w, const DirectionCone& cone) {
       switch (w.kind) {
         case Kind::packed_table:
-          return add_directions(store_.tables_[w.a], store_.tables_[w.b], w.start);
-        case Kind::face: return follow(store_.faces_[w.a].link, {w.b, w.bits}, cone, w.start);
+          return add_directions(w.more + store_.tables_[w.a], w.more + store_.tables_[w.b], w.start);
+        case Kind::face: return follow(store_.faces_[w.a].link, {w.b, w.more}, cone, w.start);
         case Kind::packed:
         case Kind::list: return add(w);
       }
@@ -381,6 +380,8 @@ class IcosphereStore {
   void gather(std::uint32_t link, const Place& place, std::vector<Entry>& entries) const;
   // Sorts a sphere's entries and adds its table.
   void tabulate(Packed& sphere, std::vector<Entry>& entries);
+  // What a table can count. Other records of a sphere stay in lists.
+  static constexpr std::size_t most_packed = 0xffff;
 
   bool append(std::atomic<std::uint32_t>& link, std::uint64_t entry);
   std::uint32_t divide(const List& list, const Place& place);
@@ -389,7 +390,8 @@ class IcosphereStore {
   StableArray<Face> faces_;
   StableArray<List> lists_;
   // Packed records, and where in them the faces of a level begin, for the spheres that have many.
-  std::vector<std::uint32_t, LargePageAllocator<std::uint32_t>> directions_, tables_;
+  std::vector<std::uint32_t, LargePageAllocator<std::uint32_t>> directions_;
+  std::vector<std::uint16_t, LargePageAllocator<std::uint16_t>> tables_;
   std::uint32_t packed_count_ = 0;
   // Those who insert take turns, those of one sphere at least.
   static constexpr std::size_t lock_count = 64;
