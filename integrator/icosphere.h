@@ -28,6 +28,7 @@
 #include "integrator/packed_direction.h"
 #include "integrator/prefetch.h"
 #include "integrator/stable_array.h"
+#include "integrator/waiting_line.h"
 #include "loader/scene.h"
 
 namespace lumivec {
@@ -53,6 +54,49 @@ class Icosphere {
 };
 
 class IcosphereStore {
+  // Directions are compared eight at a time, whether all are there or not.
+  static constexpr std::uint32_t width = 8;
+  // Of squared cosines.
+  static constexpr float rounding = 1e-6f;
+
+  // Records whose directions are in a cone or, by rounding, next to it, until they are so many that
+  // it takes no longer to look at all of them than to wait for the first.
+  class Found {
+   public:
+    static constexpr std::size_t enough = 16, capacity = enough + width;
+    std::size_t count = 0;
+
+    bool full() const { return count >= enough; }
+    // Of eight directions and their records those of the mask that are in the cone. Not if it is
+    // full.
+    void add(const std::uint32_t* directions, const std::uint32_t* records, std::uint32_t mask,
+             const DirectionCone& cone) {
+      const float signed_square = cone.min_cosine * std::abs(cone.min_cosine) - rounding;
+      std::array<float, width> dot, square, above;
+      for (std::uint32_t i = 0; i < width; ++i) {
+        const V3f v = unpack_octahedral(directions[i]);
+        dot[i] = v.dot(cone.direction);
+        square[i] = v.length2();
+        above[i] = dot[i] * std::abs(dot[i]) - signed_square * square[i];
+      }
+      const Chosen chosen(not_negative(above) & mask);
+      chosen.store(records, record_.data() + count);
+      chosen.store(dot.data(), dot_.data() + count);
+      chosen.store(square.data(), square_.data() + count);
+      count += chosen.count();
+    }
+    // Calls visit(i, record, cosine) for all, and forgets them.
+    template <typename Visit>
+    void for_each(const Visit& visit) {
+      for (std::size_t i = 0; i < count; ++i) visit(i, record_[i], dot_[i] / std::sqrt(square_[i]));
+      count = 0;
+    }
+
+   private:
+    std::array<std::uint32_t, capacity> record_;
+    std::array<float, capacity> dot_, square_;
+  };
+
  public:
   // A face with more new records than this is divided. Their directions and numbers are two cache
   // lines.
@@ -67,34 +111,126 @@ class IcosphereStore {
   template <typename Visit>
   void for_each_within(const Icosphere& sphere, const DirectionCone& cone,
                        const Visit& visit) const {
+    const auto untagged = [&](std::uint32_t record, float cosine, int) { visit(record, cosine); };
     ConeFaces faces(cone);
-    const Start<int> start = {&sphere, &faces, 0};
-    for_each_within(&start, 1,
-                    [&](std::uint32_t record, float cosine, int) { visit(record, cosine); });
+    PackedSearch<int, decltype(untagged)> packed(*this, untagged);
+    packed.add(sphere, faces, 0);
+    packed.finish();
+    const Start<int> start = {&sphere, &cone, 0};
+    for_each_new_within(&start, 1, untagged);
   }
 
-  // Of several spheres at once, up to 2^16: visit(record, cosine, the sphere's tag), one sphere
-  // after the other. Memory is what takes the time; all spheres are searched in step, so that the
-  // processor waits for them at once.
+  // The packed records of many spheres: visit(record, cosine, the sphere's tag), one sphere after
+  // the other. Memory is what takes the time: each step waits in line until what it reads has been
+  // fetched, while the steps before it go on with what is next.
+  template <typename Tag, typename Visit>
+  class PackedSearch {
+   public:
+    PackedSearch(const IcosphereStore& store, const Visit& visit) : store_(store), visit_(visit) {}
+
+    // faces: of the cone; it stays for as long as the search.
+    void add(const Icosphere& sphere, ConeFaces& faces, const Tag& tag) {
+      prefetch(sphere);
+      spheres_.add({&sphere, {&faces, tag}}, [this](const SphereStep& s) { look_at(s); });
+    }
+    void finish() {
+      spheres_.finish([this](const SphereStep& s) { look_at(s); });
+      tables_.finish([this](const TableStep& t) { look_at(t); });
+      directions_.finish([this](const DirectionsStep& d) { look_at(d); });
+      visit_found();
+    }
+    // Whether a sphere had new records beside its packed ones.
+    bool saw_new() const { return saw_new_; }
+
+   private:
+    struct Of {
+      ConeFaces* faces;
+      Tag tag;
+    };
+    struct SphereStep {
+      const Icosphere* sphere;
+      Of of;
+    };
+    struct TableStep {
+      std::uint32_t first, begin, end;  // entries `begin` and `end`, of directions from `first` on
+      Of of;
+    };
+    struct DirectionsStep {
+      std::uint32_t begin, end;
+      Of of;
+    };
+
+    void look_at(const SphereStep& s) {
+      saw_new_ |= s.sphere->link_.load(std::memory_order_acquire) != empty;
+      const Packed& packed = s.sphere->packed_;
+      if (packed.level == Packed::few) return add_directions(packed.begin, packed.end, s.of);
+      const int level = static_cast<int>(packed.level);
+      s.of.faces->find(level);
+      for (const ConeFaces::Range* r = s.of.faces->begin(level); r != s.of.faces->end(level); ++r) {
+        const std::uint32_t table = packed.table;
+        const TableStep step = {packed.begin, table + r->begin, table + r->end, s.of};
+        __builtin_prefetch(&store_.tables_[step.begin]);
+        __builtin_prefetch(&store_.tables_[step.end]);
+        tables_.add(step, [this](const TableStep& t) { look_at(t); });
+      }
+    }
+    void look_at(const TableStep& t) {
+      add_directions(t.first + store_.tables_[t.begin], t.first + store_.tables_[t.end], t.of);
+    }
+    void add_directions(std::uint32_t begin, std::uint32_t end, const Of& of) {
+      if (begin == end) return;
+      // Mostly these two lines are all.
+      constexpr std::uint32_t in_line = cache_line / sizeof(std::uint32_t);
+      __builtin_prefetch(&store_.directions_[begin]);
+      __builtin_prefetch(&store_.directions_[end - 1]);
+      for (std::uint32_t i = begin + in_line; i + in_line < end; i += in_line)
+        __builtin_prefetch(&store_.directions_[i]);
+      directions_.add({begin, end, of}, [this](const DirectionsStep& d) { look_at(d); });
+    }
+    void look_at(const DirectionsStep& d) {
+      for (std::uint32_t first = d.begin; first < d.end; first += width) {
+        std::array<std::uint32_t, width> records;
+        for (std::uint32_t i = 0; i < width; ++i) records[i] = first + i;
+        const std::uint32_t there = (1u << std::min(d.end - first, width)) - 1;
+        const std::size_t before = found_.count;
+        found_.add(store_.directions_.data() + first, records.data(), there, d.of.faces->cone());
+        for (std::size_t i = before; i < before + width; ++i) of_[i] = d.of;
+        if (found_.full()) visit_found();
+      }
+    }
+    void visit_found() {
+      found_.for_each([this](std::size_t i, std::uint32_t record, float cosine) {
+        if (cosine >= of_[i].faces->cone().min_cosine) visit_(record, cosine, of_[i].tag);
+      });
+    }
+
+    const IcosphereStore& store_;
+    const Visit& visit_;
+    bool saw_new_ = false;
+    WaitingLine<SphereStep, 16> spheres_;
+    WaitingLine<TableStep, 16> tables_;
+    WaitingLine<DirectionsStep, 16> directions_;
+    Found found_;
+    std::array<Of, Found::capacity> of_;
+  };
+
+  // The new records of several spheres, likewise.
   template <typename Tag>
   struct Start {
     const Icosphere* sphere;
-    ConeFaces* cone;
+    const DirectionCone* cone;
     Tag tag;
   };
   template <typename Tag, typename Visit>
-  void for_each_within(const Start<Tag>* starts, std::size_t count, const Visit& visit) const {
+  void for_each_new_within(const Start<Tag>* starts, std::size_t count, const Visit& visit) const {
     Step step(*this);
-    Search<Tag, Visit> search(*this, starts, visit);
+    const NewSearch<Tag, Visit> search{*this, starts, visit};
     for (std::size_t i = 0; i < count; ++i) {
       if (!step.has_room()) search.finish(step);
-      const auto start = static_cast<std::uint16_t>(i);
-      const Icosphere& sphere = *starts[i].sphere;
-      step.add_packed(sphere.packed_, *starts[i].cone, start);
-      step.follow(sphere.link_, {whole_sphere, 0}, starts[i].cone->cone(), start);
+      step.follow(starts[i].sphere->link_, {whole_sphere, 0}, *starts[i].cone,
+                  static_cast<std::uint16_t>(i));
     }
     search.finish(step);
-    search.visit_found();
   }
 
   // Puts all spheres of the store into an order, and sorts all records by sphere and direction and
@@ -128,9 +264,6 @@ class IcosphereStore {
     std::atomic<std::uint32_t> link{empty};
   };
 
-  // Of squared cosines.
-  static constexpr float rounding = 1e-6f;
-
   // Filled from the front. An entry is a direction, in the upper half, and a record, and appears at
   // once.
   static constexpr std::uint64_t no_entry = ~std::uint64_t{0};
@@ -160,58 +293,25 @@ class IcosphereStore {
   }
   std::uint32_t part_of(const Place& place, const V3f& direction, std::uint32_t record) const;
 
-  // Directions are compared eight at a time, whether all are there or not.
-  static constexpr std::uint32_t width = 8;
-  // Records whose directions are in a cone or, by rounding, next to it.
-  class Found {
-   public:
-    static constexpr std::size_t capacity = 256;
-    std::size_t count = 0;
-    std::array<std::uint32_t, capacity> record, start;
-    std::array<float, capacity> product, length2;
-
-    bool full() const { return count + width > capacity; }
-    // Of eight directions and their records those of the mask that are in the cone. Not if it is
-    // full.
-    void add(const std::uint32_t* directions, const std::uint32_t* records, std::uint32_t mask,
-             const DirectionCone& cone, std::uint32_t of_start) {
-      const float signed_square = cone.min_cosine * std::abs(cone.min_cosine) - rounding;
-      std::array<float, width> dot, square, above;
-      for (std::uint32_t i = 0; i < width; ++i) {
-        const V3f v = unpack_octahedral(directions[i]);
-        dot[i] = v.dot(cone.direction);
-        square[i] = v.length2();
-        above[i] = dot[i] * std::abs(dot[i]) - signed_square * square[i];
-      }
-      const Chosen chosen(not_negative(above) & mask);
-      chosen.store(records, record.data() + count);
-      chosen.store(dot.data(), product.data() + count);
-      chosen.store(square.data(), length2.data() + count);
-      std::fill_n(start.data() + count, width, of_start);
-      count += chosen.count();
-    }
-  };
-
-  // What a look-up has come to, whose memory has been asked for.
+  // What a search for new records has come to, whose memory has been asked for.
   enum class Kind : std::uint16_t {
-    packed_table,  // entries a and b of tables_, of the directions from `more` on
-    packed,        // directions [a, b)
-    face,          // a of faces_, at place {b, more}
-    list,          // a
+    face,  // `index` of faces_
+    list,  // `index` of lists_
   };
   struct Waiting {
-    std::uint32_t a, b, more;
+    std::uint32_t index;
+    Place place;
     std::uint16_t start;
     Kind kind;
   };
 
-  // The next step of all that waits, in its order. Directions and lists, where a search ends, wait
-  // for those that have farther to go: records come in the same order whatever else is searched.
+  // The next step of all that waits, in its order. Lists, where a search ends, wait for faces that
+  // have farther to go: records come in the same order whatever else is searched.
   class Step {
    public:
     explicit Step(const IcosphereStore& store) : store_(store) {}
 
-    bool has_room() const { return count_ + most_added <= capacity; }
+    bool has_room() const { return count_ + icosahedron_faces <= capacity; }
     // Some go on.
     bool goes_on() const { return goes_on_; }
     const Waiting* begin() const { return items_; }
@@ -221,17 +321,7 @@ class IcosphereStore {
       goes_on_ = false;
     }
 
-    void add_packed(const Packed& sphere, ConeFaces& cone, std::uint16_t start) {
-      if (sphere.level == Packed::few) return add_directions(sphere.begin, sphere.end, start);
-      const int level = static_cast<int>(sphere.level);
-      cone.find(level);
-      for (const ConeFaces::Range* r = cone.begin(level); r != cone.end(level); ++r) {
-        const std::uint32_t a = sphere.table + r->begin, b = sphere.table + r->end;
-        __builtin_prefetch(&store_.tables_[a]);
-        __builtin_prefetch(&store_.tables_[b]);
-        add({a, b, sphere.begin, start, Kind::packed_table});
-      }
-    }
+    // Adds what a link leads to.
     void follow(const std::atomic<std::uint32_t>& from, const Place& place,
                 const DirectionCone& cone, std::uint16_t start) {
       const std::uint32_t link = from.load(std::memory_order_acquire);
@@ -240,7 +330,8 @@ class IcosphereStore {
         const List& l = store_.lists_[link & ~longer_bit];
         __builtin_prefetch(&l.entries[0]);
         if ((link & longer_bit) != 0) __builtin_prefetch(&l.entries[line_capacity]);
-        return add({link & ~longer_bit, 0, 0, start, Kind::list});
+        items_[count_++] = {link & ~longer_bit, place, start, Kind::list};
+        return;
       }
       const std::uint32_t first = link & ~divided_bit;
       if (place.face == whole_sphere) {
@@ -256,37 +347,20 @@ class IcosphereStore {
       }
     }
     void advance(const Waiting& w, const DirectionCone& cone) {
-      switch (w.kind) {
-        case Kind::packed_table:
-          return add_directions(w.more + store_.tables_[w.a], w.more + store_.tables_[w.b], w.start);
-        case Kind::face: return follow(store_.faces_[w.a].link, {w.b, w.more}, cone, w.start);
-        case Kind::packed:
-        case Kind::list: return add(w);
+      if (w.kind == Kind::list) {
+        items_[count_++] = w;
+      } else {
+        follow(store_.faces_[w.index].link, w.place, cone, w.start);
       }
     }
 
    private:
-    static constexpr std::size_t capacity = 256;
-    // Of one that was there.
-    static constexpr std::size_t most_added = ConeFaces::most_ranges + icosahedron_faces;
+    static constexpr std::size_t capacity = 128;
 
-    void add(const Waiting& w) {
-      items_[count_++] = w;
-      goes_on_ |= w.kind == Kind::packed_table || w.kind == Kind::face;
-    }
-    void add_directions(std::uint32_t begin, std::uint32_t end, std::uint16_t start) {
-      if (begin == end) return;
-      // Mostly these two lines are all.
-      constexpr std::uint32_t in_line = cache_line / sizeof(std::uint32_t);
-      __builtin_prefetch(&store_.directions_[begin]);
-      __builtin_prefetch(&store_.directions_[end - 1]);
-      for (std::uint32_t i = begin + in_line; i + in_line < end; i += in_line)
-        __builtin_prefetch(&store_.directions_[i]);
-      add({begin, end, 0, start, Kind::packed});
-    }
     void add_face(std::uint32_t face, const Place& place, std::uint16_t start) {
       __builtin_prefetch(&store_.faces_[face].link);
-      add({face, place.face, place.bits, start, Kind::face});
+      items_[count_++] = {face, place, start, Kind::face};
+      goes_on_ = true;
     }
 
     const IcosphereStore& store_;
@@ -296,79 +370,45 @@ class IcosphereStore {
   };
 
   template <typename Tag, typename Visit>
-  class Search {
-   public:
-    Search(const IcosphereStore& store, const Start<Tag>* starts, const Visit& visit)
-        : store_(store), starts_(starts), visit_(visit) {}
+  struct NewSearch {
+    const IcosphereStore& store;
+    const Start<Tag>* starts;
+    const Visit& visit;
 
     // Goes on with what waits until it is found, and leaves nothing.
-    void finish(Step& step) {
+    void finish(Step& step) const {
       if (step.goes_on()) {
-        Step next(store_);
+        Step next(store);
         for (const Waiting& w : step) {
           if (!next.has_room()) finish(next);
-          next.advance(w, starts_[w.start].cone->cone());
+          next.advance(w, *starts[w.start].cone);
         }
         finish(next);
       } else {
-        for (const Waiting& w : step) {
-          if (w.kind == Kind::list) {
-            scan_list(w);
-          } else {
-            scan_packed(w);
-          }
-        }
+        for (const Waiting& w : step) scan(store.lists_[w.index], starts[w.start]);
       }
       step.clear();
     }
-
-    void visit_found() {
-      for (std::size_t i = 0; i < found_.count; ++i) {
-        const Start<Tag>& start = starts_[found_.start[i]];
-        const float cosine = found_.product[i] / std::sqrt(found_.length2[i]);
-        if (cosine >= start.cone->cone().min_cosine) visit_(found_.record[i], cosine, start.tag);
-      }
-      found_.count = 0;
-    }
-
-   private:
-    void add_found(const std::uint32_t* directions, const std::uint32_t* records,
-                   std::uint32_t mask, std::uint16_t start) {
-      if (found_.full()) visit_found();
-      found_.add(directions, records, mask, starts_[start].cone->cone(), start);
-    }
-
-    void scan_list(const Waiting& w) {
-      const List& l = store_.lists_[w.a];
+    void scan(const List& list, const Start<Tag>& start) const {
       for (std::uint32_t first = 0; first < face_capacity; first += width) {
         std::array<std::uint64_t, width> entries;
         std::array<std::uint32_t, width> directions, records;
         for (std::uint32_t i = 0; i < width; ++i)
-          entries[i] = l.entries[first + i].load(std::memory_order_acquire);
+          entries[i] = list.entries[first + i].load(std::memory_order_acquire);
         std::uint32_t there = 0;
         for (std::uint32_t i = 0; i < width; ++i) {
           directions[i] = static_cast<std::uint32_t>(entries[i] >> 32);
           records[i] = static_cast<std::uint32_t>(entries[i]);
           there |= (entries[i] != no_entry ? 1u : 0u) << i;
         }
-        add_found(directions.data(), records.data(), there, w.start);
+        Found found;
+        found.add(directions.data(), records.data(), there, *start.cone);
+        found.for_each([&](std::size_t, std::uint32_t record, float cosine) {
+          if (cosine >= start.cone->min_cosine) visit(record, cosine, start.tag);
+        });
         if (entries[width - 1] == no_entry) return;
       }
     }
-
-    void scan_packed(const Waiting& w) {
-      for (std::uint32_t first = w.a; first < w.b; first += width) {
-        std::array<std::uint32_t, width> records;
-        for (std::uint32_t i = 0; i < width; ++i) records[i] = first + i;
-        const std::uint32_t there = (1u << std::min(w.b - first, width)) - 1;
-        add_found(store_.directions_.data() + first, records.data(), there, w.start);
-      }
-    }
-
-    const IcosphereStore& store_;
-    const Start<Tag>* starts_;
-    const Visit& visit_;
-    Found found_;
   };
 
   // A record that is about to be packed.

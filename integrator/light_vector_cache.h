@@ -20,6 +20,7 @@
 #include "integrator/point_tree.h"
 #include "integrator/prefetch.h"
 #include "integrator/stable_array.h"
+#include "integrator/waiting_line.h"
 #include "loader/scene.h"
 
 namespace lumivec {
@@ -141,21 +142,10 @@ class LightVectorCache {
   };
   struct FoundRecord {
     const Record* record;
-    FoundPosition at;
     float cosine;
+    FoundPosition at;
   };
-
-  // What waits until memory has been fetched for it.
-  template <typename T, std::size_t capacity>
-  struct Batch {
-    std::size_t count = 0;
-    T items[capacity];
-
-    void add(const T& item) { items[count++] = item; }
-    bool full() const { return count == capacity; }
-    const T* begin() const { return items; }
-    const T* end() const { return items + count; }
-  };
+  static constexpr std::uint32_t waiting_records = 32;
 
   // Of at most `most` queries.
   template <std::size_t most, typename Visit>
@@ -166,33 +156,51 @@ class LightVectorCache {
       places[i] = {queries[i].position, queries[i].scale};
       cones[i] = ConeFaces(icosahedron().cone(queries[i].direction, queries[i].min_cosine));
     }
-    Batch<FoundRecord, 64> records;
-    const auto visit_records = [&] {
-      for (const FoundRecord& r : records)
-        visit(r.at.query, *r.record, r.at.distance2, r.cosine);
-      records.count = 0;
+    WaitingLine<FoundRecord, waiting_records> records;
+    const auto visit_record = [&](const FoundRecord& r) {
+      visit(r.at.query, *r.record, r.at.distance2, r.cosine);
     };
-    Batch<IcosphereStore::Start<FoundPosition>, 128> spheres;
-    const auto search_spheres = [&] {
-      spheres_.for_each_within(
-          spheres.items, spheres.count,
-          [&](std::uint32_t record, float cosine, const FoundPosition& at) {
-            const Record* found = &records_[record];
-            prefetch(*found);
-            records.add({found, at, cosine});
-            if (records.full()) visit_records();
+    const auto found = [&](std::uint32_t index, float cosine, const FoundPosition& at) {
+      const Record* record = &records_[index];
+      prefetch(*record);
+      records.add({record, cosine, at}, visit_record);
+    };
+    bool any_new = true;
+    if (spheres_.packed_count() > 0) {
+      IcosphereStore::PackedSearch<FoundPosition, decltype(found)> search(spheres_, found);
+      tree_.for_each_reaching<most>(
+          places.data(), count, [&](std::size_t query, std::uint32_t place, float distance2) {
+            search.add(places_[place], cones[query],
+                       {static_cast<std::uint32_t>(query), distance2});
           });
-      spheres.count = 0;
+      search.finish();
+      any_new = search.saw_new();
+    }
+    // New records come after all others, so that their order does not depend on the packet.
+    if (any_new) look_up_new<most>(places, cones, count, found);
+    records.finish(visit_record);
+  }
+
+  template <std::size_t most, typename Found>
+  void look_up_new(const std::array<PointTree::Reaching, most>& places,
+                   const std::array<ConeFaces, most>& cones, std::size_t count,
+                   const Found& found) const {
+    constexpr std::size_t at_once = 64;
+    std::array<IcosphereStore::Start<FoundPosition>, at_once> starts;
+    std::size_t waiting = 0;
+    const auto search = [&] {
+      spheres_.for_each_new_within(starts.data(), waiting, found);
+      waiting = 0;
     };
     tree_.for_each_reaching<most>(
         places.data(), count, [&](std::size_t query, std::uint32_t place, float distance2) {
           const Icosphere* sphere = &places_[place];
           prefetch(*sphere);
-          spheres.add({sphere, &cones[query], {static_cast<std::uint32_t>(query), distance2}});
-          if (spheres.full()) search_spheres();
+          starts[waiting++] = {sphere, &cones[query].cone(),
+                               {static_cast<std::uint32_t>(query), distance2}};
+          if (waiting == at_once) search();
         });
-    search_spheres();
-    visit_records();
+    search();
   }
 
   // former: the former indices, by the new ones; used up.
