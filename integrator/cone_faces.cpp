@@ -44,7 +44,8 @@ void ConeFaces::divide() {
     for (std::uint32_t f = ranges_[level][i].begin; f < ranges_[level][i].end; ++f) {
       std::uint32_t touched = geometry.children_touched(first + f, cone_);
       for (; touched != 0 && divided; touched &= touched - 1)
-        divided = add_face(4 * f + static_cast<std::uint32_t>(std::countr_zero(touched)), finer, count);
+        divided =
+            add_face(4 * f + static_cast<std::uint32_t>(std::countr_zero(touched)), finer, count);
     }
   }
   if (!divided) {

@@ -1,5 +1,5 @@
-// The faces of an icosahedron's levels that a cone of directions touches. They are the same at every
-// place of a cache, and are found once a look-up: 0.1 µs for a few degrees.
+// The faces of an icosahedron's levels that a cone of directions touches. They are the same at
+// every place of a cache, and are found once a look-up: 0.1 µs for a few degrees.
 #pragma once
 
 #include <array>
@@ -29,7 +29,9 @@ class ConeFaces {
     while (found_ < level) divide();
   }
   const Range* begin(int level) const { return ranges_[static_cast<std::size_t>(level)].data(); }
-  const Range* end(int level) const { return begin(level) + counts_[static_cast<std::size_t>(level)]; }
+  const Range* end(int level) const {
+    return begin(level) + counts_[static_cast<std::size_t>(level)];
+  }
 
  private:
   // More faces than this are not looked at one by one: most of them are inside the cone.

@@ -73,8 +73,8 @@ Icosahedron::Icosahedron() {
     }
   }
   assert(count == icosahedron_faces);
-  // Each face is a neighbour of the one before, unless that has none left: of the nearest ones, that
-  // which is nearest to the faces that are in order already leaves no gaps.
+  // Each face is a neighbour of the one before, unless that has none left: of the nearest ones,
+  // that which is nearest to the faces that are in order already leaves no gaps.
   for (std::size_t f = 1; f < icosahedron_faces; ++f) {
     const V3f& last = centers_[f - 1];
     V3f sum(0.0f);
@@ -102,7 +102,7 @@ Icosahedron::Icosahedron() {
     for (std::size_t i = 0; i < 3; ++i) {
       const V3f normal = (centers_[f] - centers_[order[i + 1]]).normalized();
       for (std::size_t axis = 0; axis < 3; ++axis)
-        edges_[f / width][i][axis][f % width] = normal[static_cast<int>(axis)];
+        edges_[i][axis][f] = normal[static_cast<int>(axis)];
     }
   }
 
@@ -157,21 +157,16 @@ DirectionCone Icosahedron::cone(const V3f& direction, float min_cosine) const {
   constexpr float everything = 2.0f;
   cone.margin =
       cosine <= 0.0f ? everything : std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) + rounding;
-  for (std::size_t group = 0; group < groups; ++group) {
-    std::uint32_t touched = ~0u;
-    for (const std::array<Lane, 3>& normal : edges_[group]) {
-      Lane inside;
-      for (std::size_t i = 0; i < width; ++i) {
-        inside[i] = normal[0][i] * direction.x + normal[1][i] * direction.y +
-                    normal[2][i] * direction.z + cone.margin;
-      }
-      touched &= not_negative(inside);
-    }
-    for (; touched != 0; touched &= touched - 1) {
-      const std::size_t face = group * width + static_cast<std::size_t>(std::countr_zero(touched));
-      if (face < icosahedron_faces) cone.roots[cone.root_count++] = static_cast<std::uint8_t>(face);
-    }
+  const float x = direction.x, y = direction.y, z = direction.z, margin = cone.margin;
+  std::uint32_t touched = (1u << icosahedron_faces) - 1;
+  for (const std::array<Lane, 3>& normal : edges_) {
+    Lane inside;
+    for (std::size_t i = 0; i < padded_faces; ++i)
+      inside[i] = normal[0][i] * x + normal[1][i] * y + normal[2][i] * z + margin;
+    touched &= not_negative(inside);
   }
+  for (; touched != 0; touched &= touched - 1)
+    cone.roots[cone.root_count++] = static_cast<std::uint8_t>(std::countr_zero(touched));
   return cone;
 }
 

@@ -89,15 +89,15 @@ class Icosahedron {
   // left is the child in the middle.
   using Cut = std::array<V3f, 3>;
 
-  // Of eight faces: the planes to their three neighbours, by coordinates.
+  // The planes to the three neighbours of each face, by coordinates; there is room for as many
+  // faces as a loop handles at once.
   static constexpr std::size_t width = 8;
-  static constexpr std::size_t groups = (icosahedron_faces + width - 1) / width;
-  using Lane = std::array<float, width>;
-  using Edges = std::array<std::array<Lane, 3>, 3>;
+  static constexpr std::size_t padded_faces = (icosahedron_faces + width - 1) / width * width;
+  using Lane = std::array<float, padded_faces>;
 
   std::array<std::array<V3f, 3>, icosahedron_faces> corners_;
   std::array<V3f, icosahedron_faces> centers_;
-  std::array<Edges, groups> edges_{};
+  std::array<std::array<Lane, 3>, 3> edges_{};
   std::vector<Cut> cuts_;
 };
 

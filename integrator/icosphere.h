@@ -1,13 +1,13 @@
 // Recursive icosahedra that hold records by direction (paper, section 3.2): the last two of the
 // cache's five dimensions. Records are inserted while others look, and look-ups never block.
 //
-// Many icospheres share one store. Records that are new are in lists, one for a face; a face that is
-// full is replaced by its four children. A sphere of up to sixteen of them is a list and nothing
+// Many icospheres share one store. Records that are new are in lists, one for a face; a face that
+// is full is replaced by its four children. A sphere of up to sixteen of them is a list and nothing
 // else, 128 bytes; beyond, it costs 80 bytes for its faces, 8 bytes a record, and as much again or
 // twice that for places that are free or were given up by divisions.
 //
-// pack() sorts all records by sphere and face: 4 bytes a record for its direction, and up to 4 for a
-// table of where the faces of a level begin. A look-up then reads a piece of the table and the
+// pack() sorts all records by sphere and face: 4 bytes a record for its direction, and up to 4 for
+// a table of where the faces of a level begin. A look-up then reads a piece of the table and the
 // directions of the faces that its cone touches, and what it finds is close together.
 #pragma once
 
@@ -111,27 +111,36 @@ class IcosphereStore {
   template <typename Visit>
   void for_each_within(const Icosphere& sphere, const DirectionCone& cone,
                        const Visit& visit) const {
-    const auto untagged = [&](std::uint32_t record, float cosine, int) { visit(record, cosine); };
+    const auto found = [&](std::uint32_t record, float cosine, const Origin&) {
+      visit(record, cosine);
+    };
     ConeFaces faces(cone);
-    PackedSearch<int, decltype(untagged)> packed(*this, untagged);
-    packed.add(sphere, faces, 0);
+    PackedSearch<decltype(found)> packed(*this, &faces, found);
+    packed.add(sphere, {});
     packed.finish();
-    const Start<int> start = {&sphere, &cone, 0};
-    for_each_new_within(&start, 1, untagged);
+    const Start start = {&sphere, &cone, {}};
+    for_each_new_within(&start, 1, found);
   }
 
-  // The packed records of many spheres: visit(record, cosine, the sphere's tag), one sphere after
-  // the other. Memory is what takes the time: each step waits in line until what it reads has been
-  // fetched, while the steps before it go on with what is next.
-  template <typename Tag, typename Visit>
+  // What the caller looks a sphere up for; the search does not care.
+  struct Origin {
+    std::uint32_t query = 0;
+    float distance2 = 0.0f;
+  };
+
+  // The packed records of many spheres: visit(record, cosine, the sphere's origin), one sphere
+  // after the other. Memory is what takes the time: each step waits in line until what it reads has
+  // been fetched, while the steps before it go on with what is next.
+  template <typename Visit>
   class PackedSearch {
    public:
-    PackedSearch(const IcosphereStore& store, const Visit& visit) : store_(store), visit_(visit) {}
+    // cones: of all queries, by their numbers; they stay for as long as the search.
+    PackedSearch(const IcosphereStore& store, ConeFaces* cones, const Visit& visit)
+        : store_(store), cones_(cones), visit_(visit) {}
 
-    // faces: of the cone; it stays for as long as the search.
-    void add(const Icosphere& sphere, ConeFaces& faces, const Tag& tag) {
+    void add(const Icosphere& sphere, const Origin& origin) {
       prefetch(sphere);
-      spheres_.add({&sphere, {&faces, tag}}, [this](const SphereStep& s) { look_at(s); });
+      spheres_.add({&sphere, origin}, [this](const SphereStep& s) { look_at(s); });
     }
     void finish() {
       spheres_.finish([this](const SphereStep& s) { look_at(s); });
@@ -143,41 +152,39 @@ class IcosphereStore {
     bool saw_new() const { return saw_new_; }
 
    private:
-    struct Of {
-      ConeFaces* faces;
-      Tag tag;
-    };
     struct SphereStep {
       const Icosphere* sphere;
-      Of of;
+      Origin origin;
     };
     struct TableStep {
       std::uint32_t first, begin, end;  // entries `begin` and `end`, of directions from `first` on
-      Of of;
+      Origin origin;
     };
     struct DirectionsStep {
       std::uint32_t begin, end;
-      Of of;
+      Origin origin;
     };
 
     void look_at(const SphereStep& s) {
       saw_new_ |= s.sphere->link_.load(std::memory_order_acquire) != empty;
-      const Packed& packed = s.sphere->packed_;
-      if (packed.level == Packed::few) return add_directions(packed.begin, packed.end, s.of);
+      const Packed packed = s.sphere->packed_;
+      if (packed.level == Packed::few) return add_directions(packed.begin, packed.end, s.origin);
+      ConeFaces& cone = cones_[s.origin.query];
       const int level = static_cast<int>(packed.level);
-      s.of.faces->find(level);
-      for (const ConeFaces::Range* r = s.of.faces->begin(level); r != s.of.faces->end(level); ++r) {
-        const std::uint32_t table = packed.table;
-        const TableStep step = {packed.begin, table + r->begin, table + r->end, s.of};
+      cone.find(level);
+      const std::uint32_t table = packed.table;
+      const ConeFaces::Range* const end = cone.end(level);
+      for (const ConeFaces::Range* r = cone.begin(level); r != end; ++r) {
+        const TableStep step = {packed.begin, table + r->begin, table + r->end, s.origin};
         __builtin_prefetch(&store_.tables_[step.begin]);
         __builtin_prefetch(&store_.tables_[step.end]);
         tables_.add(step, [this](const TableStep& t) { look_at(t); });
       }
     }
     void look_at(const TableStep& t) {
-      add_directions(t.first + store_.tables_[t.begin], t.first + store_.tables_[t.end], t.of);
+      add_directions(t.first + store_.tables_[t.begin], t.first + store_.tables_[t.end], t.origin);
     }
-    void add_directions(std::uint32_t begin, std::uint32_t end, const Of& of) {
+    void add_directions(std::uint32_t begin, std::uint32_t end, const Origin& origin) {
       if (begin == end) return;
       // Mostly these two lines are all.
       constexpr std::uint32_t in_line = cache_line / sizeof(std::uint32_t);
@@ -185,46 +192,49 @@ class IcosphereStore {
       __builtin_prefetch(&store_.directions_[end - 1]);
       for (std::uint32_t i = begin + in_line; i + in_line < end; i += in_line)
         __builtin_prefetch(&store_.directions_[i]);
-      directions_.add({begin, end, of}, [this](const DirectionsStep& d) { look_at(d); });
+      directions_.add({begin, end, origin}, [this](const DirectionsStep& d) { look_at(d); });
     }
     void look_at(const DirectionsStep& d) {
+      const DirectionCone& cone = cones_[d.origin.query].cone();
       for (std::uint32_t first = d.begin; first < d.end; first += width) {
         std::array<std::uint32_t, width> records;
         for (std::uint32_t i = 0; i < width; ++i) records[i] = first + i;
         const std::uint32_t there = (1u << std::min(d.end - first, width)) - 1;
-        const std::size_t before = found_.count;
-        found_.add(store_.directions_.data() + first, records.data(), there, d.of.faces->cone());
-        for (std::size_t i = before; i < before + width; ++i) of_[i] = d.of;
+        std::fill_n(query_.data() + found_.count, width, d.origin.query);
+        std::fill_n(distance2_.data() + found_.count, width, d.origin.distance2);
+        found_.add(store_.directions_.data() + first, records.data(), there, cone);
         if (found_.full()) visit_found();
       }
     }
     void visit_found() {
       found_.for_each([this](std::size_t i, std::uint32_t record, float cosine) {
-        if (cosine >= of_[i].faces->cone().min_cosine) visit_(record, cosine, of_[i].tag);
+        const Origin origin = {query_[i], distance2_[i]};
+        if (cosine >= cones_[origin.query].cone().min_cosine) visit_(record, cosine, origin);
       });
     }
 
     const IcosphereStore& store_;
+    ConeFaces* cones_;
     const Visit& visit_;
     bool saw_new_ = false;
     WaitingLine<SphereStep, 16> spheres_;
     WaitingLine<TableStep, 16> tables_;
     WaitingLine<DirectionsStep, 16> directions_;
     Found found_;
-    std::array<Of, Found::capacity> of_;
+    std::array<std::uint32_t, Found::capacity> query_;
+    std::array<float, Found::capacity> distance2_;
   };
 
   // The new records of several spheres, likewise.
-  template <typename Tag>
   struct Start {
     const Icosphere* sphere;
     const DirectionCone* cone;
-    Tag tag;
+    Origin origin;
   };
-  template <typename Tag, typename Visit>
-  void for_each_new_within(const Start<Tag>* starts, std::size_t count, const Visit& visit) const {
+  template <typename Visit>
+  void for_each_new_within(const Start* starts, std::size_t count, const Visit& visit) const {
     Step step(*this);
-    const NewSearch<Tag, Visit> search{*this, starts, visit};
+    const NewSearch<Visit> search{*this, starts, visit};
     for (std::size_t i = 0; i < count; ++i) {
       if (!step.has_room()) search.finish(step);
       step.follow(starts[i].sphere->link_, {whole_sphere, 0}, *starts[i].cone,
@@ -234,9 +244,9 @@ class IcosphereStore {
   }
 
   // Puts all spheres of the store into an order, and sorts all records by sphere and direction and
-  // numbers them anew: 0, 1, 2, …. order: the former indices of the spheres, by the new ones. count:
-  // of all records. The former numbers of the records, by the new ones. Not while others use the
-  // store.
+  // numbers them anew: 0, 1, 2, …. order: the former indices of the spheres, by the new ones.
+  // count: of all records. The former numbers of the records, by the new ones. Not while others use
+  // the store.
   std::vector<std::uint32_t> pack(StableArray<Icosphere>& spheres,
                                   const std::vector<std::uint32_t>& order, std::uint32_t count);
   // Records that are packed; the others are new.
@@ -369,10 +379,10 @@ class IcosphereStore {
     Waiting items_[capacity];
   };
 
-  template <typename Tag, typename Visit>
+  template <typename Visit>
   struct NewSearch {
     const IcosphereStore& store;
-    const Start<Tag>* starts;
+    const Start* starts;
     const Visit& visit;
 
     // Goes on with what waits until it is found, and leaves nothing.
@@ -389,7 +399,7 @@ class IcosphereStore {
       }
       step.clear();
     }
-    void scan(const List& list, const Start<Tag>& start) const {
+    void scan(const List& list, const Start& start) const {
       for (std::uint32_t first = 0; first < face_capacity; first += width) {
         std::array<std::uint64_t, width> entries;
         std::array<std::uint32_t, width> directions, records;
@@ -404,7 +414,7 @@ class IcosphereStore {
         Found found;
         found.add(directions.data(), records.data(), there, *start.cone);
         found.for_each([&](std::size_t, std::uint32_t record, float cosine) {
-          if (cosine >= start.cone->min_cosine) visit(record, cosine, start.tag);
+          if (cosine >= start.cone->min_cosine) visit(record, cosine, start.origin);
         });
         if (entries[width - 1] == no_entry) return;
       }

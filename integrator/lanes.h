@@ -1,5 +1,6 @@
-// Eight numbers that a plain loop handles at once. Comparisons keep compilers from
-// vectorising such loops, as they might raise floating-point exceptions; signs do not.
+// Eight numbers, or a few times as many, that a plain loop handles at once. Comparisons keep
+// compilers from vectorising such loops, as they might raise floating-point exceptions; signs do
+// not.
 #pragma once
 
 #include <array>
@@ -19,8 +20,13 @@ template <std::size_t n>
 std::uint32_t not_negative(const std::array<float, n>& v) {
   static_assert(n < 32);
 #ifdef __AVX__
-  if constexpr (n == 8)
-    return ~static_cast<unsigned>(_mm256_movemask_ps(_mm256_loadu_ps(v.data()))) & 0xff;
+  if constexpr (n % 8 == 0) {
+    std::uint32_t negative = 0;
+    for (std::size_t i = 0; i < n; i += 8) {
+      negative |= static_cast<unsigned>(_mm256_movemask_ps(_mm256_loadu_ps(v.data() + i))) << i;
+    }
+    return ~negative & ((1u << n) - 1);
+  }
 #endif
   std::uint32_t mask = 0;
   for (std::size_t i = 0; i < n; ++i) mask |= (~std::bit_cast<std::uint32_t>(v[i]) >> 31) << i;
@@ -39,7 +45,9 @@ class Chosen {
 #endif
   }
 
-  std::size_t count() const { return static_cast<std::size_t>(std::popcount(mask_)); }
+  std::size_t count() const {
+    return static_cast<std::size_t>(std::popcount(mask_));
+  }
   // Writes the chosen ones, and whatever it is behind them: eight numbers in all.
   template <typename T>
   void store(const T* from, T* to) const {

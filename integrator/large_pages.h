@@ -1,5 +1,5 @@
-// Memory in the processor's large pages: random reads of a large array otherwise spend half of their
-// time on finding the page.
+// Memory in the processor's large pages: random reads of a large array otherwise spend half of
+// their time on finding the page.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ constexpr std::size_t large_page = std::size_t{1} << 21;
 
 // Throws std::bad_alloc. Without large pages everything works as well.
 inline void* allocate_large_pages(std::size_t bytes, std::size_t alignment) {
-  if (bytes < large_page) return ::operator new(bytes, std::align_val_t{alignment});
-  void* memory = ::operator new(bytes, std::align_val_t{large_page});
+  if (bytes < large_page) return ::operator new (bytes, std::align_val_t{alignment});
+  void* memory = ::operator new (bytes, std::align_val_t{large_page});
 #ifdef __linux__
   madvise(memory, bytes, MADV_HUGEPAGE);
 #endif
@@ -26,7 +26,7 @@ inline void* allocate_large_pages(std::size_t bytes, std::size_t alignment) {
 
 // Of the same size and alignment.
 inline void free_large_pages(void* memory, std::size_t bytes, std::size_t alignment) {
-  ::operator delete(memory, std::align_val_t{bytes < large_page ? alignment : large_page});
+  ::operator delete (memory, std::align_val_t{bytes < large_page ? alignment : large_page});
 }
 
 // For standard containers.

@@ -83,11 +83,9 @@ class LightVectorCache {
   template <typename Visit>
   void look_up(const Query* queries, std::size_t count, const Visit& visit) const {
     for (std::size_t first = 0; first < count; first += packet) {
-      look_up_packet<packet>(
-          queries + first, std::min(packet, count - first),
-          [&](std::size_t query, const Record& r, float distance2, float cosine) {
-            visit(first + query, r, distance2, cosine);
-          });
+      look_up_packet<packet>(queries + first, std::min(packet, count - first),
+                             [&](std::size_t query, const Record& r, float distance2,
+                                 float cosine) { visit(first + query, r, distance2, cosine); });
     }
   }
 
@@ -136,14 +134,11 @@ class LightVectorCache {
   // Queries that are looked up in step.
   static constexpr std::size_t packet = 16;
 
-  struct FoundPosition {
-    std::uint32_t query;
-    float distance2;
-  };
+  using Origin = IcosphereStore::Origin;
   struct FoundRecord {
     const Record* record;
     float cosine;
-    FoundPosition at;
+    Origin origin;
   };
   static constexpr std::uint32_t waiting_records = 32;
 
@@ -158,20 +153,19 @@ class LightVectorCache {
     }
     WaitingLine<FoundRecord, waiting_records> records;
     const auto visit_record = [&](const FoundRecord& r) {
-      visit(r.at.query, *r.record, r.at.distance2, r.cosine);
+      visit(r.origin.query, *r.record, r.origin.distance2, r.cosine);
     };
-    const auto found = [&](std::uint32_t index, float cosine, const FoundPosition& at) {
+    const auto found = [&](std::uint32_t index, float cosine, const Origin& origin) {
       const Record* record = &records_[index];
       prefetch(*record);
-      records.add({record, cosine, at}, visit_record);
+      records.add({record, cosine, origin}, visit_record);
     };
     bool any_new = true;
     if (spheres_.packed_count() > 0) {
-      IcosphereStore::PackedSearch<FoundPosition, decltype(found)> search(spheres_, found);
+      IcosphereStore::PackedSearch<decltype(found)> search(spheres_, cones.data(), found);
       tree_.for_each_reaching<most>(
           places.data(), count, [&](std::size_t query, std::uint32_t place, float distance2) {
-            search.add(places_[place], cones[query],
-                       {static_cast<std::uint32_t>(query), distance2});
+            search.add(places_[place], {static_cast<std::uint32_t>(query), distance2});
           });
       search.finish();
       any_new = search.saw_new();
@@ -186,7 +180,7 @@ class LightVectorCache {
                    const std::array<ConeFaces, most>& cones, std::size_t count,
                    const Found& found) const {
     constexpr std::size_t at_once = 64;
-    std::array<IcosphereStore::Start<FoundPosition>, at_once> starts;
+    std::array<IcosphereStore::Start, at_once> starts;
     std::size_t waiting = 0;
     const auto search = [&] {
       spheres_.for_each_new_within(starts.data(), waiting, found);
@@ -196,8 +190,8 @@ class LightVectorCache {
         places.data(), count, [&](std::size_t query, std::uint32_t place, float distance2) {
           const Icosphere* sphere = &places_[place];
           prefetch(*sphere);
-          starts[waiting++] = {sphere, &cones[query].cone(),
-                               {static_cast<std::uint32_t>(query), distance2}};
+          starts[waiting++] = {
+              sphere, &cones[query].cone(), {static_cast<std::uint32_t>(query), distance2}};
           if (waiting == at_once) search();
         });
     search();

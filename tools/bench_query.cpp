@@ -138,12 +138,11 @@ nlohmann::json measure(const Case& c, const Options& options) {
     const double begin = now();
     for (std::size_t first = 0; first < batch_size; first += options.packet) {
       V3f* total = totals.data() + first;
-      cache.look_up(
-          queries.data() + first, std::min(options.packet, batch_size - first),
-          [&](std::size_t query, const LightVector& v, float distance2, float cosine) {
-            total[query] += v.direction * (v.magnitude.x * cosine * (1.0f - distance2));
-            ++found;
-          });
+      cache.look_up(queries.data() + first, std::min(options.packet, batch_size - first),
+                    [&](std::size_t query, const LightVector& v, float distance2, float cosine) {
+                      total[query] += v.direction * (v.magnitude.x * cosine * (1.0f - distance2));
+                      ++found;
+                    });
     }
     times.push_back((now() - begin) / batch_size);
     for (const V3f& total : totals) sum += total.x;
@@ -180,8 +179,9 @@ int run(int argc, char** argv) {
   app.add_option("--queries", options.queries, "look-ups a case")
       ->capture_default_str()
       ->check(CLI::Range(batch_size, std::size_t{100'000'000}));
-  app.add_option("--packet", options.packet,
-                 "look-ups that are made together, as a renderer shades several hits; 1: one by one")
+  app.add_option(
+         "--packet", options.packet,
+         "look-ups that are made together, as a renderer shades several hits; 1: one by one")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1}, batch_size));
   app.add_option("--cone", options.cone_degrees, "angle of directions that fit, in degrees")
