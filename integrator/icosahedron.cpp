@@ -1,9 +1,13 @@
 #include "integrator/icosahedron.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "integrator/lanes.h"
 
 namespace lumivec {
 
@@ -18,16 +22,19 @@ V3f midpoint(const V3f& a, const V3f& b) {
   return (a + b).normalized();
 }
 
-// The child in the middle is the triangle of the midpoints; child i otherwise keeps corner i.
+// The child in the middle is the triangle of the midpoints; the others keep a corner.
 Triangle child_triangle(const Triangle& t, std::uint32_t which) {
   const Triangle middle = {midpoint(t[1], t[2]), midpoint(t[2], t[0]), midpoint(t[0], t[1])};
-  if (which == 3) return middle;
-  Triangle child = middle;
-  child[which] = t[which];
-  // The two midpoints on the edges of this corner, in an order that keeps the orientation.
-  child[(which + 1) % 3] = middle[(which + 2) % 3];
-  child[(which + 2) % 3] = middle[(which + 1) % 3];
-  return child;
+  for (std::uint32_t corner = 0; corner < 3; ++corner) {
+    if (which != Icosahedron::corner_child(corner)) continue;
+    Triangle child = middle;
+    child[corner] = t[corner];
+    // The two midpoints on the edges of this corner, in an order that keeps the orientation.
+    child[(corner + 1) % 3] = middle[(corner + 2) % 3];
+    child[(corner + 2) % 3] = middle[(corner + 1) % 3];
+    return child;
+  }
+  return middle;
 }
 
 // The twelve corners: cyclic permutations of (0, ±1, ±golden ratio).
@@ -66,16 +73,37 @@ Icosahedron::Icosahedron() {
     }
   }
   assert(count == icosahedron_faces);
+  // Each face is a neighbour of the one before, unless that has none left: of the nearest ones,
+  // that which is nearest to the faces that are in order already leaves no gaps.
+  for (std::size_t f = 1; f < icosahedron_faces; ++f) {
+    const V3f& last = centers_[f - 1];
+    V3f sum(0.0f);
+    for (std::size_t g = 0; g < f; ++g) sum += centers_[g];
+    constexpr float small = 1e-2f;  // against the distances between faces
+    const auto closeness = [&](std::size_t g) {
+      return centers_[g].dot(last) + small * centers_[g].dot(sum);
+    };
+    std::size_t next = f;
+    for (std::size_t g = f + 1; g < icosahedron_faces; ++g) {
+      if (closeness(g) > closeness(next)) next = g;
+    }
+    std::swap(corners_[f], corners_[next]);
+    std::swap(centers_[f], centers_[next]);
+  }
 
-  // Neighbours are the three faces whose centres are nearest.
+  // Neighbours are the three faces whose centres are nearest, and the planes half-way to them are
+  // those through the edges.
   for (std::size_t f = 0; f < icosahedron_faces; ++f) {
     std::array<std::uint8_t, icosahedron_faces> order;
     for (std::size_t g = 0; g < icosahedron_faces; ++g) order[g] = static_cast<std::uint8_t>(g);
-    std::sort(order.begin(), order.end(), [&](std::uint8_t a, std::uint8_t b) {
-      return centers_[f].dot(centers_[a]) > centers_[f].dot(centers_[b]);
+    std::sort(order.begin(), order.end(), [&](std::uint8_t g, std::uint8_t h) {
+      return centers_[f].dot(centers_[g]) > centers_[f].dot(centers_[h]);
     });
-    std::copy_n(order.begin() + 1, 3, neighbours_[f].begin());
-    neighbour_distance_ = (centers_[f] - centers_[order[1]]).length();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const V3f normal = (centers_[f] - centers_[order[i + 1]]).normalized();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        edges_[i][axis][f] = normal[static_cast<int>(axis)];
+    }
   }
 
   // Parents have lower numbers than children.
@@ -129,17 +157,16 @@ DirectionCone Icosahedron::cone(const V3f& direction, float min_cosine) const {
   constexpr float everything = 2.0f;
   cone.margin =
       cosine <= 0.0f ? everything : std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) + rounding;
-  std::array<float, icosahedron_faces> cosines;
-  for (std::size_t f = 0; f < icosahedron_faces; ++f) cosines[f] = centers_[f].dot(direction);
-  // A face is on its own side of the planes half-way to its neighbours; (c_f − c_g) / |c_f − c_g|
-  // are their normals.
-  const float margin = cone.margin * neighbour_distance_ + rounding;
-  for (std::size_t f = 0; f < icosahedron_faces; ++f) {
-    float nearest = cosines[neighbours_[f][0]];
-    for (const std::uint8_t g : neighbours_[f]) nearest = std::max(nearest, cosines[g]);
-    if (cosines[f] >= nearest - margin)
-      cone.roots[cone.root_count++] = static_cast<std::uint8_t>(f);
+  const float x = direction.x, y = direction.y, z = direction.z, margin = cone.margin;
+  std::uint32_t touched = (1u << icosahedron_faces) - 1;
+  for (const std::array<Lane, 3>& normal : edges_) {
+    Lane inside;
+    for (std::size_t i = 0; i < padded_faces; ++i)
+      inside[i] = normal[0][i] * x + normal[1][i] * y + normal[2][i] * z + margin;
+    touched &= not_negative(inside);
   }
+  for (; touched != 0; touched &= touched - 1)
+    cone.roots[cone.root_count++] = static_cast<std::uint8_t>(std::countr_zero(touched));
   return cone;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -45,13 +46,24 @@ class Icosahedron {
   std::uint32_t child_of(std::uint32_t face, const V3f& direction) const {
     const Cut& cut = cuts_[face];
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
-      if (cut[corner].dot(direction) > 0.0f) return corner;
+      if (cut[corner].dot(direction) > 0.0f) return corner_child(corner);
     }
-    return 3;
+    return middle_child;
   }
   // The face of a level, [0, deepest_face_level], that a unit direction is in.
   std::uint32_t face_of(const V3f& direction, int level) const;
 
+  // The faces of a level have consecutive numbers, those of the next one that are inside them too.
+  static constexpr std::uint32_t first_face(int level) {
+    return icosahedron_faces * ((1u << (2 * level)) - 1) / 3;
+  }
+  static constexpr std::uint32_t face_count(int level) { return icosahedron_faces << (2 * level); }
+  // Of the children, the one in the middle is next to two others: what a cone touches has mostly
+  // consecutive numbers.
+  static constexpr std::uint32_t middle_child = 2;
+  static constexpr std::uint32_t corner_child(std::uint32_t corner) {
+    return corner < middle_child ? corner : corner + 1;
+  }
   static constexpr std::uint32_t child(std::uint32_t face, std::uint32_t which) {
     return icosahedron_faces + 4 * face + which;
   }
@@ -63,11 +75,11 @@ class Icosahedron {
   // Bit i: the cone touches child i of a face that it touches; conservative. face < divided_faces.
   std::uint32_t children_touched(std::uint32_t face, const DirectionCone& cone) const {
     const Cut& cut = cuts_[face];
-    std::uint32_t mask = 8;
+    std::uint32_t mask = 1u << middle_child;
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const float distance = cut[corner].dot(cone.direction);
-      if (distance >= -cone.margin) mask |= 1u << corner;
-      if (distance > cone.margin) mask &= 7;
+      if (distance >= -cone.margin) mask |= 1u << corner_child(corner);
+      if (distance > cone.margin) mask &= ~(1u << middle_child);
     }
     return mask;
   }
@@ -77,10 +89,15 @@ class Icosahedron {
   // left is the child in the middle.
   using Cut = std::array<V3f, 3>;
 
+  // The planes to the three neighbours of each face, by coordinates; there is room for as many
+  // faces as a loop handles at once.
+  static constexpr std::size_t width = 8;
+  static constexpr std::size_t padded_faces = (icosahedron_faces + width - 1) / width * width;
+  using Lane = std::array<float, padded_faces>;
+
   std::array<std::array<V3f, 3>, icosahedron_faces> corners_;
   std::array<V3f, icosahedron_faces> centers_;
-  std::array<std::array<std::uint8_t, 3>, icosahedron_faces> neighbours_;
-  float neighbour_distance_ = 0.0f;  // of the centres of two neighbours
+  std::array<std::array<Lane, 3>, 3> edges_{};
   std::vector<Cut> cuts_;
 };
 

@@ -9,13 +9,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
+#include "integrator/cone_faces.h"
 #include "integrator/icosphere.h"
 #include "integrator/point_tree.h"
+#include "integrator/prefetch.h"
 #include "integrator/stable_array.h"
+#include "integrator/waiting_line.h"
 #include "loader/scene.h"
 
 namespace lumivec {
@@ -62,36 +67,41 @@ class LightVectorCache {
   template <typename Visit>
   void look_up(const V3f& p, const V3f& direction, float scale, float min_cosine,
                const Visit& visit) const {
-    const DirectionCone cone = icosahedron().cone(direction, min_cosine);
-    Batch<FoundRecord> records;
-    const auto visit_records = [&] {
-      for (const FoundRecord& r : records) visit(records_[r.record], r.distance2, r.cosine);
-      records.count = 0;
-    };
-    Batch<IcosphereStore::Start<float>> places;
-    const auto visit_places = [&] {
-      spheres_.for_each_within(places.items, places.count, cone,
-                               [&](std::uint32_t record, float cosine, float distance2) {
-                                 __builtin_prefetch(&records_[record]);
-                                 records.add({record, distance2, cosine});
-                                 if (records.full()) visit_records();
-                               });
-      places.count = 0;
-    };
-    tree_.for_each_reaching(p, scale, [&](std::uint32_t place, float distance2) {
-      __builtin_prefetch(&places_[place]);
-      places.add({&places_[place], distance2});
-      if (places.full()) visit_places();
+    const Query query = {p, direction, scale, min_cosine};
+    look_up_packet<1>(&query, 1, [&](std::size_t, const Record& r, float distance2, float cosine) {
+      visit(r, distance2, cosine);
     });
-    visit_places();
-    visit_records();
   }
 
-  // Packs the tree of positions: its part of a look-up is then eight times as fast as after
-  // insertions in random order, and far faster than after sorted ones. Not while others use the
+  // The same for several places and directions at once: visit(query, record, squared distance,
+  // cosine), in the same order for each of them. They are looked up in step, so that the processor
+  // waits for all their memory at once; eight or more go together best.
+  struct Query {
+    V3f position{0.0f}, direction{0.0f};
+    float scale = 1.0f, min_cosine = 1.0f;
+  };
+  template <typename Visit>
+  void look_up(const Query* queries, std::size_t count, const Visit& visit) const {
+    for (std::size_t first = 0; first < count; first += packet) {
+      look_up_packet<packet>(queries + first, std::min(packet, count - first),
+                             [&](std::size_t query, const Record& r, float distance2,
+                                 float cosine) { visit(first + query, r, distance2, cosine); });
+    }
+  }
+
+  // Packs the tree of positions and, if a good part of them is new, the records of each position:
+  // look-ups are then several times as fast. Positions and records that are near each other move
+  // next to each other. Takes 8 bytes a record for as long as it lasts. Not while others use the
   // cache.
   void balance() {
-    tree_.rebuild([this](std::uint32_t i) { return tree_.reach(i); });
+    const auto reach = [this](std::uint32_t i) { return tree_.reach(i); };
+    const std::uint32_t count = records_.size();
+    if (static_cast<double>(count) <= static_cast<double>(spheres_.packed_count()) * repacked) {
+      tree_.rebuild(reach);
+      return;
+    }
+    const std::vector<std::uint32_t> order = tree_.renumber(reach);
+    permute_records(spheres_.pack(places_, order, count));
   }
 
   // Gives all memory back. Not while others use the cache.
@@ -117,23 +127,93 @@ class LightVectorCache {
   // What memory may become by the next insertion: arrays grow by a quarter.
   static constexpr double growth = 1.25;
 
+  // Records are packed again when there are so many times as many as were packed: what that costs
+  // for each record that is ever inserted stays the same.
+  static constexpr double repacked = 1.25;
+
+  // Queries that are looked up in step.
+  static constexpr std::size_t packet = 16;
+
+  using Origin = IcosphereStore::Origin;
   struct FoundRecord {
-    std::uint32_t record;
-    float distance2, cosine;
+    const Record* record;
+    float cosine;
+    Origin origin;
   };
+  static constexpr std::uint32_t waiting_records = 32;
 
-  // What waits until memory has been fetched for it.
-  template <typename T>
-  struct Batch {
-    static constexpr std::size_t capacity = 32;
-    std::size_t count = 0;
-    T items[capacity];
+  // Of at most `most` queries.
+  template <std::size_t most, typename Visit>
+  void look_up_packet(const Query* queries, std::size_t count, const Visit& visit) const {
+    std::array<ConeFaces, most> cones;
+    std::array<PointTree::Reaching, most> places;
+    for (std::size_t i = 0; i < count; ++i) {
+      places[i] = {queries[i].position, queries[i].scale};
+      cones[i] = ConeFaces(icosahedron().cone(queries[i].direction, queries[i].min_cosine));
+    }
+    WaitingLine<FoundRecord, waiting_records> records;
+    const auto visit_record = [&](const FoundRecord& r) {
+      visit(r.origin.query, *r.record, r.origin.distance2, r.cosine);
+    };
+    const auto found = [&](std::uint32_t index, float cosine, const Origin& origin) {
+      const Record* record = &records_[index];
+      prefetch(*record);
+      records.add({record, cosine, origin}, visit_record);
+    };
+    bool any_new = true;
+    if (spheres_.packed_count() > 0) {
+      IcosphereStore::PackedSearch<decltype(found)> search(spheres_, cones.data(), found);
+      tree_.for_each_reaching<most>(
+          places.data(), count, [&](std::size_t query, std::uint32_t place, float distance2) {
+            search.add(places_[place], {static_cast<std::uint32_t>(query), distance2});
+          });
+      search.finish();
+      any_new = search.saw_new();
+    }
+    // New records come after all others, so that their order does not depend on the packet.
+    if (any_new) look_up_new<most>(places, cones, count, found);
+    records.finish(visit_record);
+  }
 
-    void add(const T& item) { items[count++] = item; }
-    bool full() const { return count == capacity; }
-    const T* begin() const { return items; }
-    const T* end() const { return items + count; }
-  };
+  template <std::size_t most, typename Found>
+  void look_up_new(const std::array<PointTree::Reaching, most>& places,
+                   const std::array<ConeFaces, most>& cones, std::size_t count,
+                   const Found& found) const {
+    constexpr std::size_t at_once = 64;
+    std::array<IcosphereStore::Start, at_once> starts;
+    std::size_t waiting = 0;
+    const auto search = [&] {
+      spheres_.for_each_new_within(starts.data(), waiting, found);
+      waiting = 0;
+    };
+    tree_.for_each_reaching<most>(
+        places.data(), count, [&](std::size_t query, std::uint32_t place, float distance2) {
+          const Icosphere* sphere = &places_[place];
+          prefetch(*sphere);
+          starts[waiting++] = {
+              sphere, &cones[query].cone(), {static_cast<std::uint32_t>(query), distance2}};
+          if (waiting == at_once) search();
+        });
+    search();
+  }
+
+  // former: the former indices, by the new ones; used up.
+  void permute_records(std::vector<std::uint32_t> former) {
+    for (std::uint32_t i = 0; i < former.size(); ++i) {
+      if (former[i] == i) continue;
+      // Once round the cycle.
+      const Record first = records_[i];
+      std::uint32_t to = i;
+      while (former[to] != i) {
+        const std::uint32_t from = former[to];
+        records_[to] = records_[from];
+        former[to] = to;
+        to = from;
+      }
+      records_[to] = first;
+      former[to] = to;
+    }
+  }
 
   std::size_t max_bytes_;
   PointTree tree_;

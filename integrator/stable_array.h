@@ -12,9 +12,7 @@
 #include <new>
 #include <type_traits>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
+#include "integrator/large_pages.h"
 
 namespace lumivec {
 
@@ -98,26 +96,15 @@ class StableArray {
   T* head(std::uint32_t i) const { return heads_[segment_of(i)].load(std::memory_order_acquire); }
 
   static_assert(std::is_trivially_destructible_v<T>);  // segments are only given back
-  // Large segments use the processor's large pages: random reads of a large array otherwise spend
-  // half of their time on finding the page.
-  static constexpr std::size_t large_page = std::size_t{1} << 21;
-  static constexpr std::align_val_t alignment(std::size_t bytes) {
-    return std::align_val_t{bytes >= large_page ? large_page : alignof(T)};
-  }
   struct Free {
     std::size_t bytes = 0;
-    void operator()(T* segment) const { ::operator delete(segment, alignment(bytes)); }
+    void operator()(T* segment) const { free_large_pages(segment, bytes, alignof(T)); }
   };
   using Segment = std::unique_ptr<T, Free>;
 
   static Segment allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    void* memory = ::operator new(bytes, alignment(bytes));
-#ifdef __linux__
-    // A hint: without large pages everything works as well.
-    if (bytes >= large_page) madvise(memory, bytes, MADV_HUGEPAGE);
-#endif
-    T* elements = static_cast<T*>(memory);
+    T* elements = static_cast<T*>(allocate_large_pages(bytes, alignof(T)));
     std::uninitialized_value_construct_n(elements, count);
     return Segment(elements, Free{bytes});
   }

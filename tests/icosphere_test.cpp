@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <map>
@@ -137,15 +138,18 @@ TEST_F(IcosphereTest, SpheresOfAStoreAreApart) {
     store_.insert(other, direction(), 1'000 + i);
   }
   expect_right(20);
-  const IcosphereStore::Start<char> starts[] = {{&sphere_, 'a'}, {&other, 'b'}};
-  int own = 0, others = 0;
-  store_.for_each_within(starts, 2, icosahedron().cone(direction(), -1.0f),
-                         [&](std::uint32_t record, float, char tag) {
-                           EXPECT_EQ(tag, record < 1'000 ? 'a' : 'b');
-                           ++(tag == 'a' ? own : others);
-                         });
-  EXPECT_EQ(own, 300);
-  EXPECT_EQ(others, 300);
+  const DirectionCone cone = icosahedron().cone(direction(), -1.0f);
+  const IcosphereStore::Start starts[] = {{&sphere_, &cone, {0, 0.25f}},
+                                          {&other, &cone, {1, 0.5f}}};
+  std::array<int, 2> found{};
+  store_.for_each_new_within(
+      starts, 2, [&](std::uint32_t record, float, const IcosphereStore::Origin& origin) {
+        EXPECT_EQ(origin.query, record < 1'000 ? 0u : 1u);
+        EXPECT_EQ(origin.distance2, record < 1'000 ? 0.25f : 0.5f);
+        ++found[origin.query];
+      });
+  EXPECT_EQ(found[0], 300);
+  EXPECT_EQ(found[1], 300);
 }
 
 // More faces and lists than wait at once.
@@ -155,15 +159,129 @@ TEST_F(IcosphereTest, ManySpheresAtOnce) {
   for (Icosphere& s : spheres) {
     for (int i = 0; i < 300; ++i) store_.insert(s, direction(), record++);
   }
-  std::vector<IcosphereStore::Start<std::uint32_t>> starts;
-  for (std::uint32_t i = 0; i < spheres.size(); ++i) starts.push_back({&spheres[i], i});
+  const DirectionCone cone = icosahedron().cone(direction(), -1.0f);
+  std::vector<IcosphereStore::Start> starts;
+  for (std::uint32_t i = 0; i < spheres.size(); ++i) starts.push_back({&spheres[i], &cone, {i}});
   std::vector<int> seen(record);
-  store_.for_each_within(starts.data(), starts.size(), icosahedron().cone(direction(), -1.0f),
-                         [&](std::uint32_t r, float, std::uint32_t tag) {
-                           ++seen[r];
-                           EXPECT_EQ(r / 300, tag);
-                         });
+  store_.for_each_new_within(starts.data(), starts.size(),
+                             [&](std::uint32_t r, float, const IcosphereStore::Origin& origin) {
+                               ++seen[r];
+                               EXPECT_EQ(r / 300, origin.query);
+                             });
   for (const int s : seen) ASSERT_EQ(s, 1);
+}
+
+// Spheres of a store that are packed, with what was inserted by record numbers.
+class PackedIcosphereTest : public IcosphereTest {
+ protected:
+  void add_to(std::uint32_t sphere, const V3f& d) {
+    while (spheres_.size() <= sphere) spheres_.grow();
+    store_.insert(spheres_[sphere], d, static_cast<std::uint32_t>(records_.size()));
+    records_.push_back({sphere, d});
+  }
+  // The spheres change their order as well.
+  void pack() {
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t i = spheres_.size(); i > 0; --i) order.push_back(i - 1);
+    const auto count = static_cast<std::uint32_t>(records_.size());
+    const std::vector<std::uint32_t> former = store_.pack(spheres_, order, count);
+    ASSERT_EQ(former.size(), count);
+    const std::vector<Record> before = records_;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      records_[i] = before[former[i]];
+      records_[i].sphere = spheres_.size() - 1 - records_[i].sphere;
+    }
+  }
+  void expect_sphere(std::uint32_t sphere, const V3f& d, float angle) const {
+    Found found;
+    store_.for_each_within(spheres_[sphere], icosahedron().cone(d, std::cos(angle)),
+                           [&](std::uint32_t record, float cosine) {
+                             EXPECT_TRUE(found.emplace(record, cosine).second) << "twice";
+                           });
+    constexpr float border = 1e-3f;
+    for (std::uint32_t i = 0; i < records_.size(); ++i) {
+      const V3f& stored = records_[i].direction;
+      const float between = std::atan2(d.cross(stored).length(), d.dot(stored));
+      const bool own = records_[i].sphere == sphere;
+      if (own && between < angle - border) {
+        ASSERT_TRUE(found.count(i)) << i << " at " << between << " of " << angle;
+        ASSERT_NEAR(found.at(i), std::cos(between), 1.5e-4f);
+      }
+      if (!own || between > angle + border) {
+        ASSERT_FALSE(found.count(i)) << i << " at " << between << " of " << angle;
+      }
+    }
+  }
+  void expect_all(int queries) {
+    for (std::uint32_t sphere = 0; sphere < spheres_.size(); ++sphere) {
+      for (int q = 0; q < queries; ++q) {
+        const float angle =
+            std::uniform_real_distribution<float>(0.0f, q % 2 ? 3.1f : 0.3f)(random_);
+        expect_sphere(sphere, direction(), angle);
+        expect_sphere(sphere, records_[random_() % records_.size()].direction, angle);
+      }
+    }
+  }
+
+  struct Record {
+    std::uint32_t sphere;
+    V3f direction;
+  };
+  StableArray<Icosphere> spheres_;
+  std::vector<Record> records_;
+};
+
+TEST_F(PackedIcosphereTest, FindsTheSameAsBefore) {
+  for (std::uint32_t sphere = 0; sphere < 12; ++sphere) {
+    for (std::uint32_t i = 0; i < 1u << sphere; ++i) add_to(sphere, direction());
+  }
+  expect_all(3);
+  pack();
+  expect_all(3);
+}
+
+TEST_F(PackedIcosphereTest, NewRecordsAreFoundBesideThePackedOnes) {
+  for (int round = 0; round < 3; ++round) {
+    for (std::uint32_t i = 0; i < 600; ++i) add_to(i % 5 % 3, direction());
+    expect_all(10);
+    pack();
+    EXPECT_EQ(store_.packed_count(), records_.size());
+    expect_all(10);
+  }
+}
+
+TEST_F(PackedIcosphereTest, CrowdedDirections) {
+  const V3f middle = direction();
+  for (int i = 0; i < 3'000; ++i) add_to(0, near(middle, i % 2 == 0 ? 0.3f : 0.01f));
+  pack();
+  for (int q = 0; q < 60; ++q) expect_sphere(0, near(middle, 0.1f), 0.002f * (q + 1));
+  expect_all(20);
+}
+
+TEST_F(PackedIcosphereTest, TakesLessThanTenBytesARecord) {
+  for (std::uint32_t i = 0; i < 20'000; ++i) add_to(i / 100, direction());
+  const std::size_t before = store_.bytes();
+  pack();
+  EXPECT_LT(store_.bytes(), records_.size() * 10);
+  EXPECT_LT(store_.bytes(), before / 2);
+}
+
+// More than a table can count.
+TEST_F(PackedIcosphereTest, ASphereOfVeryManyRecords) {
+  constexpr std::uint32_t count = 70'000;
+  for (std::uint32_t i = 0; i < count; ++i) add_to(i % 1'000 == 0 ? 1 : 0, direction());
+  pack();
+  std::vector<int> seen(count);
+  for (std::uint32_t sphere = 0; sphere < 2; ++sphere) {
+    store_.for_each_within(spheres_[sphere], icosahedron().cone(direction(), -1.0f),
+                           [&](std::uint32_t record, float) {
+                             ++seen[record];
+                             EXPECT_EQ(records_[record].sphere, sphere);
+                           });
+  }
+  for (const int s : seen) ASSERT_EQ(s, 1);
+  expect_sphere(1, direction(), 0.1f);
+  expect_sphere(0, direction(), 0.1f);
 }
 
 TEST_F(IcosphereTest, RecordsAreFoundWhileOthersInsert) {

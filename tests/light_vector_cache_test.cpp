@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -68,6 +69,37 @@ class LightVectorCacheTest : public testing::Test {
     }
   }
 
+  struct Visit {
+    int record;
+    float distance2, cosine;
+    bool operator==(const Visit&) const = default;
+  };
+
+  void expect_packets_like_single_ones(std::size_t count) {
+    std::vector<LightVectorCache<int>::Query> queries(count);
+    for (auto& q : queries) {
+      q = {place(), direction(), uniform(0.3f, 1.5f), std::cos(uniform(0.05f, 1.5f))};
+      // Some at once at one place, and some that find nothing.
+      if (random_() % 4 == 0) q.position = queries[0].position;
+      if (random_() % 8 == 0) q.position = V3f(100.0f);
+    }
+    std::vector<std::vector<Visit>> found(count);
+    cache_.look_up(queries.data(), count,
+                   [&](std::size_t query, int record, float distance2, float cosine) {
+                     ASSERT_LT(query, count);
+                     found[query].push_back({record, distance2, cosine});
+                   });
+    for (std::size_t i = 0; i < count; ++i) {
+      std::vector<Visit> alone;
+      const auto& q = queries[i];
+      cache_.look_up(q.position, q.direction, q.scale, q.min_cosine,
+                     [&](int record, float distance2, float cosine) {
+                       alone.push_back({record, distance2, cosine});
+                     });
+      ASSERT_TRUE(found[i] == alone) << "query " << i << " of " << count;
+    }
+  }
+
   std::mt19937 random_{1};
   LightVectorCache<int> cache_{plenty};
   std::vector<Entry> entries_;
@@ -86,6 +118,55 @@ TEST_F(LightVectorCacheTest, FindsWhatASearchThroughAllFinds) {
   expect_right(50);
   for (int i = 0; i < 100; ++i) add({place(), 0.3f, direction()});
   expect_right(50);
+}
+
+TEST_F(LightVectorCacheTest, ManyDirectionsAPosition) {
+  for (int i = 0; i < 8; ++i) {
+    const V3f p = place();
+    for (int d = 0; d < 500; ++d) add({p, 1.0f, direction()});
+  }
+  for (int round = 0; round < 3; ++round) {
+    expect_right(30);
+    expect_packets_like_single_ones(100);
+    cache_.balance();
+    expect_right(30);
+    expect_packets_like_single_ones(100);
+    // Few new records stay as they are when the cache is balanced again, many do not.
+    const int more = round == 0 ? 50 : 3'000;
+    for (int i = 0; i < more; ++i) {
+      const Entry e = entries_[random_() % entries_.size()];
+      add({e.position, e.reach, direction()}, 1e-6f);
+    }
+  }
+}
+
+TEST_F(LightVectorCacheTest, PacketsFindTheSameInTheSameOrder) {
+  expect_packets_like_single_ones(3);
+  for (int i = 0; i < 300; ++i) {
+    const V3f p = place();
+    const float reach = uniform(0.1f, 0.8f);
+    for (int d = 0; d < 1 + i % 40; ++d) add({p, reach, direction()});
+  }
+  for (const std::size_t count : {1u, 2u, 15u, 16u, 17u, 100u})
+    expect_packets_like_single_ones(count);
+  cache_.balance();
+  for (const std::size_t count : {1u, 2u, 15u, 16u, 17u, 100u})
+    expect_packets_like_single_ones(count);
+  for (int i = 0; i < 200; ++i) add({place(), 0.5f, direction()});
+  for (const std::size_t count : {1u, 2u, 15u, 16u, 17u, 100u})
+    expect_packets_like_single_ones(count);
+}
+
+TEST_F(LightVectorCacheTest, BalancingTakesLessMemory) {
+  for (int i = 0; i < 100; ++i) {
+    const V3f p = place();
+    for (int d = 0; d < 100; ++d) add({p, 0.3f, direction()}, 1e-6f);
+  }
+  const std::size_t before = cache_.bytes();
+  cache_.balance();
+  EXPECT_LT(cache_.bytes(), before);
+  EXPECT_EQ(cache_.position_count(), 100u);
+  EXPECT_EQ(cache_.record_count(), 10'000u);
 }
 
 TEST_F(LightVectorCacheTest, SharesPositionsWithinTheTolerance) {
@@ -138,17 +219,56 @@ TEST_F(LightVectorCacheTest, ClearGivesEverythingBack) {
   expect_right(20);
 }
 
-TEST_F(LightVectorCacheTest, LookUpsGoOnWhileOthersInsert) {
-  constexpr int threads = 3, each = 3'000;
+class LightVectorCacheInsertionTest : public LightVectorCacheTest,
+                                      public testing::WithParamInterface<bool> {};
+
+// With and without records that were packed before.
+INSTANTIATE_TEST_SUITE_P(Balanced, LightVectorCacheInsertionTest, testing::Bool());
+
+TEST_P(LightVectorCacheInsertionTest, LookUpsGoOnWhileOthersInsert) {
+  constexpr int threads = 3, each = 3'000, corners = 8;
+  const auto corner_place = [](int c) {
+    return V3f(c & 1 ? 0.5f : -0.5f, c & 2 ? 0.5f : -0.5f, c & 4 ? 0.5f : -0.5f);
+  };
+  int before = 0;
+  if (GetParam()) {
+    // Numbered on from what the threads insert.
+    for (int i = 0; i < 4'000; ++i) {
+      cache_.insert(corner_place(i % corners), 0.3f, 0.001f, direction(),
+                    threads * each + ++before);
+    }
+    cache_.balance();
+  }
   std::atomic<bool> stop{false};
   std::atomic<int> wrong{0};
   std::thread reader([&] {
+    constexpr std::size_t packet = 20;
+    std::vector<LightVectorCache<int>::Query> queries(packet);
     while (!stop) {
-      const V3f p = place();
-      cache_.look_up(p, direction(), 1.0f, 0.5f, [&](int record, float distance2, float cosine) {
-        if (record < 1 || record > threads * each) ++wrong;
+      for (auto& q : queries) q = {place(), direction(), 1.0f, 0.5f};
+      std::vector<std::vector<int>> seen(packet);
+      const auto check = [&](int record, float distance2, float cosine) {
+        if (record < 1 || record > threads * each + before) ++wrong;
         if (distance2 > 0.3f * 0.3f || cosine < 0.5f) ++wrong;
-      });
+      };
+      cache_.look_up(queries.data(), packet,
+                     [&](std::size_t query, int record, float distance2, float cosine) {
+                       check(record, distance2, cosine);
+                       seen[query].push_back(record);
+                     });
+      // A later look-up finds all of that.
+      for (std::size_t i = 0; i < packet; ++i) {
+        const auto& q = queries[i];
+        std::set<int> alone;
+        cache_.look_up(q.position, q.direction, q.scale, q.min_cosine,
+                       [&](int record, float distance2, float cosine) {
+                         check(record, distance2, cosine);
+                         if (!alone.insert(record).second) ++wrong;
+                       });
+        for (const int record : seen[i]) {
+          if (alone.count(record) != 1) ++wrong;
+        }
+      }
     }
   });
   std::vector<std::thread> writers;
@@ -156,11 +276,10 @@ TEST_F(LightVectorCacheTest, LookUpsGoOnWhileOthersInsert) {
     writers.emplace_back([&, t] {
       std::mt19937 random(t);
       std::uniform_real_distribution<float> u(-1.0f, 1.0f);
-      std::uniform_int_distribution<int> corner(0, 7);
+      std::uniform_int_distribution<int> corner(0, corners - 1);
       for (int i = 0; i < each; ++i) {
         // Eight positions for all threads: they grow one sphere together.
-        const int c = corner(random);
-        const V3f p(c & 1 ? 0.5f : -0.5f, c & 2 ? 0.5f : -0.5f, c & 4 ? 0.5f : -0.5f);
+        const V3f p = corner_place(corner(random));
         const float x = u(random), y = u(random);
         const V3f d = V3f(x, y, u(random) + 1.1f).normalized();
         const int record = static_cast<int>(t) * each + i + 1;
@@ -176,7 +295,8 @@ TEST_F(LightVectorCacheTest, LookUpsGoOnWhileOthersInsert) {
   stop = true;
   reader.join();
   EXPECT_EQ(wrong, 0);
-  EXPECT_EQ(cache_.record_count(), static_cast<std::uint32_t>(threads * each));
+  EXPECT_EQ(cache_.record_count(), static_cast<std::uint32_t>(threads * each + before));
+  expect_packets_like_single_ones(100);
 }
 
 }  // namespace

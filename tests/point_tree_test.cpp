@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <map>
 #include <random>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace lumivec {
@@ -47,6 +49,29 @@ class PointTreeTest : public testing::Test {
     return found;
   }
 
+  // Several at once, in the same order as one by one.
+  void expect_packets_like_single_ones(float size) {
+    constexpr std::size_t most = 8;
+    using Visits = std::vector<std::pair<std::uint32_t, float>>;
+    for (std::size_t count = 0; count <= most; ++count) {
+      std::array<PointTree::Reaching, most> queries;
+      for (auto& q : queries) q = {place(size), uniform(0.1f, 2.0f)};
+      std::array<Visits, most> found;
+      tree_.for_each_reaching<most>(queries.data(), count,
+                                    [&](std::size_t query, std::uint32_t i, float distance2) {
+                                      ASSERT_LT(query, count);
+                                      found[query].emplace_back(i, distance2);
+                                    });
+      for (std::size_t q = 0; q < count; ++q) {
+        Visits alone;
+        tree_.for_each_reaching(
+            queries[q].p, queries[q].scale,
+            [&](std::uint32_t i, float distance2) { alone.emplace_back(i, distance2); });
+        ASSERT_EQ(found[q], alone) << "query " << q << " of " << count;
+      }
+    }
+  }
+
   // Against a search through all points; those within a rounding error of the border may go either
   // way.
   template <typename Radius>
@@ -74,6 +99,7 @@ class PointTreeTest : public testing::Test {
       const float distance = q % 5 == 0 ? 0.0f : uniform(0.0f, 0.3f * size);
       expect_all(within(p, distance), p, [&](const Point&) { return distance; });
     }
+    expect_packets_like_single_ones(size);
   }
   // As the insertions left the tree; packed; packed with as many again beside.
   void expect_right_in_all_states(float size = 1.0f) {
@@ -163,6 +189,29 @@ TEST_F(PointTreeTest, RebuildChangesReachesAndKeepsIndices) {
     EXPECT_EQ(tree_.reach(i), points_[i].reach);
     EXPECT_EQ(tree_.position(i), points_[i].position);
   }
+  expect_right(60);
+}
+
+TEST_F(PointTreeTest, RenumberedPointsAreTheSameUnderNewIndices) {
+  for (int i = 0; i < 1'000; ++i) add({place(), uniform(0.0f, 0.1f)});
+  rebuild();
+  for (int i = 0; i < 100; ++i) add({place(), uniform(0.0f, 0.1f)});
+  const std::vector<std::uint32_t> former =
+      tree_.renumber([this](std::uint32_t i) { return points_[i].reach; });
+  ASSERT_EQ(former.size(), points_.size());
+  const std::vector<Point> before = points_;
+  for (std::size_t i = 0; i < former.size(); ++i) points_[i] = before[former[i]];
+  float distance = 0.0f, distance_before = 0.0f;
+  for (std::uint32_t i = 0; i < tree_.size(); ++i) {
+    EXPECT_EQ(tree_.reach(i), points_[i].reach);
+    EXPECT_EQ(tree_.position(i), points_[i].position);
+    if (i == 0) continue;
+    distance += (points_[i].position - points_[i - 1].position).length();
+    distance_before += (before[i].position - before[i - 1].position).length();
+  }
+  EXPECT_LT(distance, 0.4f * distance_before);
+  expect_right(60);
+  for (int i = 0; i < 100; ++i) add({place(), uniform(0.0f, 0.1f)});
   expect_right(60);
 }
 

@@ -27,7 +27,7 @@ constexpr float room_size = 1.0f;
 constexpr float wall_area = 6.0f * room_size * room_size;
 constexpr float points_over_a_place = 7.0f;
 // Look-ups between two readings of the clock: enough that the clock does not count.
-constexpr int batch_size = 256;
+constexpr std::size_t batch_size = 256;
 // More than any case needs.
 constexpr std::size_t max_bytes = std::size_t{16} << 30;
 
@@ -80,12 +80,15 @@ double percentile(std::vector<double>& values, double share) {
 // Keeps the compiler from leaving out a loop whose result is not used.
 volatile float sink;
 
+using Cache = LightVectorCache<LightVector>;
+
 struct Case {
   int points = 0, directions = 0;
 };
 
 struct Options {
-  int queries = 200'000;
+  std::size_t queries = 200'000;
+  std::size_t packet = 16;
   float cone_degrees = 5.0f;
   bool scattered = false;
   bool balance = true;
@@ -93,7 +96,7 @@ struct Options {
 
 nlohmann::json measure(const Case& c, const Options& options) {
   Random random(1);
-  LightVectorCache<LightVector> cache(max_bytes);
+  Cache cache(max_bytes);
   const float reach = std::sqrt(points_over_a_place * wall_area /
                                 (std::numbers::pi_v<float> * static_cast<float>(c.points)));
   std::vector<Place> places(static_cast<std::size_t>(c.points));
@@ -120,33 +123,32 @@ nlohmann::json measure(const Case& c, const Options& options) {
   if (options.balance) cache.balance();
   const double balance = now() - balance_start;
 
-  struct Query {
-    V3f position{0.0f}, direction{0.0f};
-  };
-  std::vector<Query> queries(batch_size);
+  std::vector<Cache::Query> queries(batch_size);
   const float min_cosine = std::cos(options.cone_degrees * std::numbers::pi_v<float> / 180.0f);
   std::vector<double> times;
+  std::vector<V3f> totals(batch_size);
   std::uint64_t found = 0;
   float sum = 0.0f;
-  for (int done = 0; done < options.queries; done += batch_size) {
-    for (Query& q : queries) {
+  for (std::size_t done = 0; done < options.queries; done += batch_size) {
+    for (Cache::Query& q : queries) {
       const Place place = random_place(random);
-      q = {place.position, random_direction(place, random)};
+      q = {place.position, random_direction(place, random), 1.0f, min_cosine};
     }
+    std::fill(totals.begin(), totals.end(), V3f(0.0f));
     const double begin = now();
-    for (const Query& q : queries) {
-      V3f total(0.0f);
-      cache.look_up(q.position, q.direction, 1.0f, min_cosine,
-                    [&](const LightVector& v, float distance2, float cosine) {
-                      total += v.direction * (v.magnitude.x * cosine * (1.0f - distance2));
+    for (std::size_t first = 0; first < batch_size; first += options.packet) {
+      V3f* total = totals.data() + first;
+      cache.look_up(queries.data() + first, std::min(options.packet, batch_size - first),
+                    [&](std::size_t query, const LightVector& v, float distance2, float cosine) {
+                      total[query] += v.direction * (v.magnitude.x * cosine * (1.0f - distance2));
                       ++found;
                     });
-      sum += total.x;
     }
     times.push_back((now() - begin) / batch_size);
+    for (const V3f& total : totals) sum += total.x;
   }
   sink = sum;
-  const double looked = static_cast<double>(times.size()) * batch_size;
+  const double looked = static_cast<double>(times.size() * batch_size);
   const double mean_found = static_cast<double>(found) / looked;
   const double median = percentile(times, 0.5), slow = percentile(times, 0.95);
   const double bytes = static_cast<double>(cache.bytes()) / records;
@@ -176,14 +178,19 @@ int run(int argc, char** argv) {
   app.add_option("--case", only, "only this number of points and of directions")->expected(2);
   app.add_option("--queries", options.queries, "look-ups a case")
       ->capture_default_str()
-      ->check(CLI::Range(batch_size, 100'000'000));
+      ->check(CLI::Range(batch_size, std::size_t{100'000'000}));
+  app.add_option(
+         "--packet", options.packet,
+         "look-ups that are made together, as a renderer shades several hits; 1: one by one")
+      ->capture_default_str()
+      ->check(CLI::Range(std::size_t{1}, batch_size));
   app.add_option("--cone", options.cone_degrees, "angle of directions that fit, in degrees")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 180.0));
   app.add_flag("--scattered", options.scattered,
                "insert the records of one point far apart, not one after the other");
   app.add_flag("!--no-balance", options.balance,
-               "look up in the tree as the insertions left it; else it is balanced before");
+               "look up in the cache as the insertions left it; else it is balanced before");
   CLI11_PARSE(app, argc, argv);
 
   std::vector<std::pair<std::string, std::vector<Case>>> series = {
@@ -197,8 +204,8 @@ int run(int argc, char** argv) {
     series = {{"case", {{only[0], only[1]}}}};
   }
 
-  std::printf("look-ups within %g degrees, one thread; tree of positions %s\n",
-              static_cast<double>(options.cone_degrees),
+  std::printf("look-ups within %g degrees, %zu at a time, one thread; cache %s\n",
+              static_cast<double>(options.cone_degrees), options.packet,
               options.balance ? "balanced after the insertions" : "as the insertions left it");
   std::printf("%9s %10s %11s %9s %9s %9s %11s %9s %9s\n", "points", "directions", "records",
               "median us", "95% us", "found", "insert us", "balance s", "B/record");
@@ -208,6 +215,7 @@ int run(int argc, char** argv) {
   }
   write_json(json_file, {{"queries", options.queries},
                          {"cone_degrees", options.cone_degrees},
+                         {"packet", options.packet},
                          {"scattered", options.scattered},
                          {"balanced", options.balance},
                          {"series", all}});
