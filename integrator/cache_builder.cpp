@@ -123,15 +123,16 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
     asking.requested = term_;
     const Tile& tile = tiles[i];
     std::vector<SampleRange> pixels;
-    for (int y = 0; y < tile.height; ++y) {
-      for (int x = 0; x < tile.width; ++x) {
-        if ((tile.x + x) % stride != phase % stride || (tile.y + y) % stride != phase / stride)
-          continue;
-        pixels.push_back({static_cast<std::uint32_t>(y * tile.width + x), 0, 1});
-      }
+    // The first place at or after the tile's edge.
+    const auto first = [&](int edge, int place) {
+      return (place - edge % stride + stride) % stride;
+    };
+    for (int y = first(tile.y, phase / stride); y < tile.height; y += stride) {
+      for (int x = first(tile.x, phase % stride); x < tile.width; x += stride)
+        pixels.push_back({static_cast<std::uint32_t>(y * tile.width + x), 0, 1, 0});
     }
     if (pixels.empty()) return;
-    std::vector<PixelSums> sums(std::size_t(tile.width) * std::size_t(tile.height));
+    std::vector<PixelSums> sums(1);  // of no use
     RenderStatistics counts;
     tracer_.render_ranges(tile, pixels, sums, counts, asking);
     counts.samples = counts.cache_hits = counts.cache_misses = 0;  // none was for the picture

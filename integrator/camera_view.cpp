@@ -50,6 +50,34 @@ CameraRay CameraView::ray(float x, float y) const {
   return ray;
 }
 
+PictureRays CameraView::rays() const {
+  const V3f x = right_ * (2.0f * half_width_ / width_), y = up_ * (-2.0f * half_height_ / height_);
+  const V3f corner = up_ * half_height_ - right_ * half_width_;
+  PictureRays rays;
+  rays.near = near_;
+  rays.far = far_;
+  const bool perspective = kind_ == CameraKind::perspective;
+  const V3f none(0.0f);
+  rays.origin = perspective ? position_ : position_ + corner;
+  rays.origin_x = perspective ? none : x;
+  rays.origin_y = perspective ? none : y;
+  rays.direction = perspective ? forward_ + corner : forward_;
+  rays.direction_x = perspective ? x : none;
+  rays.direction_y = perspective ? y : none;
+  return rays;
+}
+
+PicturePlane CameraView::plane() const {
+  PicturePlane plane;
+  plane.eye = position_;
+  plane.forward = forward_;
+  plane.x_axis = right_ * (0.5f * width_ / half_width_);
+  plane.y_axis = up_ * (-0.5f * height_ / half_height_);
+  plane.center = V2f(0.5f * width_, 0.5f * height_);
+  plane.perspective = kind_ == CameraKind::perspective;
+  return plane;
+}
+
 float CameraView::footprint(float distance) const {
   const float pixel = 2.0f * half_height_ / height_;
   return kind_ == CameraKind::orthographic ? pixel : pixel * distance;

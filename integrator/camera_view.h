@@ -13,6 +13,28 @@ struct CameraRay {
   float near = 0.0f, far = 0.0f;  // distances along the ray between which the eye sees
 };
 
+// The rays through a picture, for loops over its pixels: the one through the point (x, y), pixels
+// from the upper left corner, starts at origin + x · origin_x + y · origin_y, traced space, and
+// goes along direction + x · direction_x + y · direction_y, of length one along the view axis.
+struct PictureRays {
+  V3f origin, origin_x, origin_y;
+  V3f direction, direction_x, direction_y;
+  float near = 0.0f, far = 0.0f;  // along the view axis
+
+  V3f point(float x, float y, float depth) const {
+    return origin + origin_x * x + origin_y * y +
+           (direction + direction_x * x + direction_y * y) * depth;
+  }
+};
+
+// And back: with v = p − eye and depth = v · forward, p is seen at x = (v · x_axis) / w + center.x,
+// likewise y, where w is the depth for perspective cameras and one for others.
+struct PicturePlane {
+  V3f eye, x_axis, y_axis, forward;
+  V2f center;  // pixels
+  bool perspective = true;
+};
+
 class CameraView {
  public:
   // The vertical field of view is the camera's, the horizontal one follows from the picture's
@@ -21,6 +43,9 @@ class CameraView {
 
   // Through the point (x, y) of the picture, pixels from its upper left corner.
   CameraRay ray(float x, float y) const;
+
+  PictureRays rays() const;
+  PicturePlane plane() const;
 
   // Distance of a traced-space point along the view axis.
   float depth(const V3f& p) const { return (p - position_).dot(forward_); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -25,6 +26,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int tile_side = 32;  // pixels
+// Samples that a thread traces at once.
+constexpr std::size_t chunk_size = 256;
 // Of a packet of rays.
 constexpr int block_width = 4, block_height = packet_size / block_width;
 // Records are asked for at every so many pixels in both directions, at another place of each block
@@ -72,43 +75,68 @@ struct LiveTracer::State {
   }
 
   // The pixels of one packet of rays, from (left, top) on.
-  void see_block(int left, int top, std::vector<VisiblePoint>& points) const {
-    RTCRayHit8 rays;
-    set_constants(rays.ray);
+  void see_block(const PictureRays& rays, int left, int top, VisibleSurfaces& seen) const {
+    RTCRayHit8 packet;
+    set_constants(packet.ray);
     std::uint32_t seeds[packet_size] = {};
     alignas(32) int valid[packet_size];
-    std::array<CameraRay, packet_size> camera;
-    std::array<std::size_t, packet_size> pixel;
-    int count = 0;
+    std::array<V3f, packet_size> direction;
+    // Lanes outside the picture are traced and forgotten.
+    for (int i = 0; i < packet_size; ++i) {
+      const float x = static_cast<float>(left + i % block_width) + 0.5f,
+                  y = static_cast<float>(top + i / block_width) + 0.5f;
+      direction[std::size_t(i)] = rays.direction + rays.direction_x * x + rays.direction_y * y;
+      set_ray(packet, i, rays.origin + rays.origin_x * x + rays.origin_y * y,
+              direction[std::size_t(i)], rays.near, rays.far);
+    }
+    set_valid(packet.ray, packet_size, valid);
+    TraceQuery query = traced.query();
+    query.seeds = seeds;
+    embree::intersect8_coherent(valid, traced.handle(), query.context, packet);
     for (int i = 0; i < packet_size; ++i) {
       const int x = left + i % block_width, y = top + i / block_width;
       if (x >= settings.width || y >= settings.height) continue;
-      const CameraRay ray = view->ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-      set_ray(rays, count, ray.origin, ray.direction, ray.near, ray.far);
-      camera[std::size_t(count)] = ray;
-      pixel[std::size_t(count)] = std::size_t(y) * std::size_t(settings.width) + std::size_t(x);
-      ++count;
-    }
-    set_valid(rays.ray, count, valid);
-    TraceQuery query = traced.query();
-    query.seeds = seeds;
-    embree::intersect8_coherent(valid, traced.handle(), query.context, rays);
-    for (int i = 0; i < count; ++i) {
-      const CameraRay& ray = camera[std::size_t(i)];
-      const RTCHit8& h = rays.hit;
-      RayHit hit = {rays.ray.tfar[i], h.u[i], h.v[i], h.geomID[i], h.primID[i], h.instID[0][i]};
-      VisiblePoint& to = points[pixel[std::size_t(i)]];
-      to = {V3f(0.0f), V3f(0.0f), std::numeric_limits<float>::infinity(), -1};
-      while (hit.valid()) {
-        const SurfacePoint p = traced.surface(hit, ray.origin, ray.direction);
-        if (!culled(p)) {
-          to = {p.position, p.normal, view->depth(p.position), p.instance};
-          break;
+      const std::size_t pixel = std::size_t(y) * std::size_t(settings.width) + std::size_t(x);
+      const RTCHit8& h = packet.hit;
+      const RayHit hit = {packet.ray.tfar[i], h.u[i],      h.v[i],
+                          h.geomID[i],        h.primID[i], h.instID[0][i]};
+      const V3f& along = direction[std::size_t(i)];
+      float depth = VisibleSurfaces::nothing;
+      int object = -1;
+      V3f normal(0.0f);
+      if (hit.valid()) {
+        depth = hit.distance;
+        object = traced.instance_of(hit);
+        normal = traced.outward_normal(object, V3f(h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]));
+        if (normal.dot(along) > 0.0f) {
+          normal = -normal;
+          if (culled(*traced.instances()[std::size_t(object)].material, false))
+            look_past(hit, rays, V3f(packet.ray.org_x[i], packet.ray.org_y[i], packet.ray.org_z[i]),
+                      along, depth, normal, object);
         }
-        hit = traced.intersect(ray.origin, ray.direction, next_distance(hit.distance, p.error),
-                               ray.far, 0);
+        normal *= 1.0f / std::sqrt(std::max(normal.length2(), std::numeric_limits<float>::min()));
       }
+      seen.depth[pixel] = depth;
+      seen.object[pixel] = object;
+      seen.normal[pixel] = pack_normal(normal);
     }
+  }
+
+  // The first surface behind a hit that the eye does not look through.
+  void look_past(RayHit hit, const PictureRays& rays, const V3f& origin, const V3f& direction,
+                 float& depth, V3f& normal, int& object) const {
+    while (hit.valid()) {
+      const SurfacePoint p = traced.surface(hit, origin, direction);
+      if (!culled(p)) {
+        depth = hit.distance;
+        normal = p.geometric_normal;
+        object = p.instance;
+        return;
+      }
+      hit = traced.intersect(origin, direction, next_distance(hit.distance, p.error), rays.far, 0);
+    }
+    depth = VisibleSurfaces::nothing;
+    object = -1;
   }
 
   RenderSettings settings;
@@ -157,41 +185,47 @@ void LiveTracer::set_view(const Camera& camera, int width, int height) {
   }
 }
 
-void LiveTracer::see(std::vector<VisiblePoint>& points) {
+void LiveTracer::see(VisibleSurfaces& seen) {
   State& s = *state_;
   const int width = s.settings.width, height = s.settings.height;
-  points.resize(std::size_t(width) * std::size_t(height));
+  seen.resize(std::size_t(width) * std::size_t(height));
+  const PictureRays rays = s.view->rays();
   s.arena.execute([&] {
     for_each(std::size_t((height + block_height - 1) / block_height), [&](std::size_t row) {
       const int y = static_cast<int>(row) * block_height;
-      for (int x = 0; x < width; x += block_width) s.see_block(x, y, points);
+      for (int x = 0; x < width; x += block_width) s.see_block(rays, x, y, seen);
     });
   });
-  s.statistics.rays_camera += points.size();
+  s.statistics.rays_camera += seen.size();
 }
 
-bool LiveTracer::project(const V3f& p, int views_ago, V2f& pixel) const {
-  V3f to_eye;
-  float distance, importance;
-  const CameraView& view = views_ago == 0 ? *state_->view : *state_->last_view;
-  return view.project(p, pixel, to_eye, distance, importance);
+V3d LiveTracer::pivot(const VisibleSurfaces& seen) const {
+  const int x = state_->settings.width / 2, y = state_->settings.height / 2;
+  const std::size_t pixel = std::size_t(y) * std::size_t(state_->settings.width) + std::size_t(x);
+  if (seen.object[pixel] < 0) return origin();
+  return origin() +
+         V3d(state_->view->rays().point(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
+                                        seen.depth[pixel]));
 }
 
-float LiveTracer::footprint(float depth) const {
-  return state_->view->footprint(depth);
+const CameraView& LiveTracer::view(int views_ago) const {
+  return views_ago == 0 ? *state_->view : *state_->last_view;
 }
 
 void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
                        std::vector<LiveSample>& samples) {
   State& s = *state_;
-  std::vector<std::vector<LiveRequest>> by_tile(s.tiles.size());
+  // Neighbours together.
   const auto width = static_cast<std::uint32_t>(s.settings.width);
-  for (const LiveRequest& r : requests) {
-    const std::uint32_t x = r.pixel % width, y = r.pixel / width;
-    by_tile[(y / tile_side) * std::size_t(s.tiles_across) + x / tile_side].push_back(r);
-  }
-  std::vector<std::size_t> first(s.tiles.size() + 1, 0);
-  for (std::size_t i = 0; i < s.tiles.size(); ++i) first[i + 1] = first[i] + by_tile[i].size();
+  const auto tile_of = [&](const LiveRequest& r) {
+    return (r.pixel / width / tile_side) * std::size_t(s.tiles_across) +
+           r.pixel % width / tile_side;
+  };
+  std::vector<std::size_t> next(s.tiles.size() + 1, 0);
+  for (const LiveRequest& r : requests) ++next[tile_of(r) + 1];
+  for (std::size_t i = 0; i < s.tiles.size(); ++i) next[i + 1] += next[i];
+  std::vector<LiveRequest> wanted(requests.size());
+  for (const LiveRequest& r : requests) wanted[next[tile_of(r)]++] = r;
   samples.resize(requests.size());
   CacheUse use;
   if (s.builder) {
@@ -199,26 +233,19 @@ void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
     if (!s.complete) use.budget *= meanwhile_budget;
   }
   s.arena.execute([&] {
-    for_each(s.tiles.size(), [&](std::size_t t) {
-      const std::vector<LiveRequest>& wanted = by_tile[t];
-      if (wanted.empty()) return;
-      const Tile& tile = s.tiles[t];
-      const auto tile_width = static_cast<std::uint32_t>(tile.width);
-      std::vector<PixelSums> sums(std::size_t(tile.width) * std::size_t(tile.height));
-      std::vector<SampleRange> ranges;
-      ranges.reserve(wanted.size());
-      for (const LiveRequest& r : wanted) {
-        const std::uint32_t x = r.pixel % width - static_cast<std::uint32_t>(tile.x),
-                            y = r.pixel / width - static_cast<std::uint32_t>(tile.y);
-        ranges.push_back({y * tile_width + x, r.sample, 1, centered});
+    const Tile picture = {0, 0, s.settings.width, s.settings.height};
+    for_each((wanted.size() + chunk_size - 1) / chunk_size, [&](std::size_t chunk) {
+      const std::size_t first = chunk * chunk_size;
+      const std::size_t count = std::min(chunk_size, wanted.size() - first);
+      std::vector<PixelSums> sums(count);
+      std::vector<SampleRange> ranges(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const LiveRequest& r = wanted[first + i];
+        ranges[i] = {r.pixel, r.sample, 1, static_cast<std::uint32_t>(i), centered};
       }
       RenderStatistics counts;
-      s.tracer->render_ranges(tile, ranges, sums, counts, use);
-      for (std::size_t i = 0; i < wanted.size(); ++i) {
-        LiveSample& to = samples[first[t] + i];
-        to.terms = sums[ranges[i].pixel].terms;
-        to.pixel = wanted[i].pixel;
-      }
+      s.tracer->render_ranges(picture, ranges, sums, counts, use);
+      for (std::size_t i = 0; i < count; ++i) samples[first + i] = {sums[i].terms, ranges[i].pixel};
       const std::lock_guard lock(s.mutex);
       s.statistics.add_counts(counts);
     });

@@ -7,19 +7,13 @@
 #include <memory>
 #include <vector>
 
+#include "integrator/camera_view.h"
 #include "integrator/framebuffer.h"
 #include "integrator/settings.h"
+#include "integrator/visible_surfaces.h"
 #include "loader/scene.h"
 
 namespace lumivec {
-
-// What the eye sees through a point of the picture.
-struct VisiblePoint {
-  V3f position{0.0f};        // traced space: world space less LiveTracer::origin(), scene units
-  V3f normal{0.0f};          // unit, shading normal before normal maps, on the eye's side
-  float depth = 0.0f;        // along the view axis, scene units; +inf: nothing
-  std::int32_t object = -1;  // index into Scene::instances; -1: nothing
-};
 
 // One sample of a pixel.
 struct LiveSample {
@@ -43,14 +37,16 @@ class LiveTracer {
   // The camera that the next calls are about, and the picture's size, pixels.
   void set_view(const Camera& camera, int width, int height);
 
-  // Through the centres of all pixels, row by row.
-  void see(std::vector<VisiblePoint>& points);
+  // Through the middles of all pixels.
+  void see(VisibleSurfaces& seen);
 
-  // Where a point of traced space is in the view that was set last but `views_ago` (0 or 1).
-  // False: outside.
-  bool project(const V3f& p, int views_ago, V2f& pixel) const;
-  // Size of a pixel at a depth along the view axis, scene units.
-  float footprint(float depth) const;
+  // Where the eye looks: what it sees in the middle, world space; the scene's middle if nothing is
+  // there.
+  V3d pivot(const VisibleSurfaces& seen) const;
+
+  // The view that was set last but `views_ago` (0 or 1), and how its pixels lie in traced space
+  // (world space less origin()).
+  const CameraView& view(int views_ago = 0) const;
 
   // One sample each, in any order; a pixel at most once. centered: through the pixels' middles,
   // where see() looks, and not spread by the filter.

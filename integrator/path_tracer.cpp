@@ -322,21 +322,23 @@ class PathStream {
     lane.caustic.photons = cache_.photons != nullptr;
     lane.camera_ray = true;
     bool centered = false;
+    std::uint32_t pixel;
     if (ranges_) {
       const SampleRange& range = (*ranges_)[range_];
       centered = range.centered;
-      lane.pixel = range.pixel;
+      pixel = range.pixel;
+      lane.pixel = range.sums;
       lane.sample = range.first + within_range_;
       if (++within_range_ == range.count) {
         ++range_;
         within_range_ = 0;
       }
     } else {
-      lane.pixel = static_cast<std::uint32_t>(path % pixel_count_);
+      pixel = lane.pixel = static_cast<std::uint32_t>(path % pixel_count_);
       lane.sample = first_sample_ + static_cast<std::uint32_t>(path / pixel_count_);
     }
-    const int x = tile_.x + static_cast<int>(lane.pixel) % tile_.width;
-    const int y = tile_.y + static_cast<int>(lane.pixel) / tile_.width;
+    const int x = tile_.x + static_cast<int>(pixel) % tile_.width;
+    const int y = tile_.y + static_cast<int>(pixel) / tile_.width;
     const auto seed_low = static_cast<std::uint32_t>(t_.settings_.seed);
     const auto seed_high = static_cast<std::uint32_t>(t_.settings_.seed >> 32);
     if (cache_.any()) lane.splits = 1;

@@ -47,7 +47,8 @@ struct PixelSums {
 struct SampleRange {
   std::uint32_t pixel = 0;  // row by row
   std::uint32_t first = 0, count = 0;
-  bool centered = false;  // through the pixel's middle, not spread by the filter
+  std::uint32_t sums = 0;  // index of what they are added to
+  bool centered = false;   // through the pixel's middle, not spread by the filter
 };
 
 struct Tile {
@@ -106,7 +107,7 @@ class PathTracer {
                    std::vector<PixelSums>& sums, RenderStatistics& statistics,
                    const CacheUse& cache = {}) const;
 
-  // Likewise the samples of ranges alone.
+  // Likewise the samples of ranges alone, each to the sums that it names.
   void render_ranges(const Tile& tile, const std::vector<SampleRange>& ranges,
                      std::vector<PixelSums>& sums, RenderStatistics& statistics,
                      const CacheUse& cache = {}) const;

@@ -509,8 +509,8 @@ class StillRender {
               const std::size_t i =
                   std::size_t(tile.y + y) * std::size_t(settings_.width) + std::size_t(tile.x + x);
               if (extra[i] == 0) continue;
-              ranges.push_back({static_cast<std::uint32_t>(y * tile.width + x),
-                                film_.pixel(i).samples, extra[i]});
+              const auto pixel = static_cast<std::uint32_t>(y * tile.width + x);
+              ranges.push_back({pixel, film_.pixel(i).samples, extra[i], pixel});
             }
           }
           if (!ranges.empty()) tracer_.render_ranges(tile, ranges, sums, counts, cache_use_);

@@ -85,6 +85,14 @@ class TracedScene {
   // The surface at a hit of the ray origin + t · direction.
   SurfacePoint surface(const RayHit& hit, const V3f& origin, const V3f& direction) const;
 
+  // The side that a hit's surface faces, traced space, not unit, from Embree's normal of the hit.
+  V3f outward_normal(int instance, const V3f& embree_normal) const {
+    const TracedInstance& i = instances_[std::size_t(instance)];
+    if (i.sphere >= 0) return embree_normal;
+    if (i.flattened) return i.mirrored ? -embree_normal : embree_normal;
+    return embree_normal * transforms_[std::size_t(i.transform)].normal;
+  }
+
   // The three corners of a triangle of a mesh instance, traced space.
   std::array<V3f, 3> triangle(int instance, unsigned primitive) const;
 

@@ -75,11 +75,11 @@ TEST(walk_engine, edges_stay_exact_while_the_eye_moves) {
     engine.advance(path[i], 1e-6, 1u << unsigned(Term::emitted), picture);
     LiveTracer truth(scene, walk_settings(48));
     truth.set_view(path[i], 48, 48);
-    std::vector<VisiblePoint> points;
+    VisibleSurfaces points;
     truth.see(points);
     int wrong = 0;
     for (std::size_t k = 0; k < picture.size(); ++k) {
-      const bool green = points[k].object == 1;
+      const bool green = points.object[k] == 1;
       if ((picture[k].y > picture[k].x) != green) ++wrong;
     }
     EXPECT_LE(wrong, 2) << "of " << picture.size() << " pixels in frame " << i;
@@ -90,7 +90,7 @@ TEST(shading_cache, traces_about_as_many_pixels_as_asked) {
   const Scene scene = cornell_scene();
   LiveTracer tracer(scene, walk_settings(64));
   tracer.set_view(cornell_camera(), 64, 64);
-  std::vector<VisiblePoint> seen;
+  VisibleSurfaces seen;
   tracer.see(seen);
   ShadingCache cache(64, 64);
   cache.see(tracer, seen);
@@ -114,7 +114,7 @@ TEST(shading_cache, untraced_pixels_come_first) {
   const Scene scene = cornell_scene();
   LiveTracer tracer(scene, walk_settings(32));
   tracer.set_view(cornell_camera(), 32, 32);
-  std::vector<VisiblePoint> seen;
+  VisibleSurfaces seen;
   tracer.see(seen);
   ShadingCache cache(32, 32);
   cache.see(tracer, seen);

@@ -205,9 +205,9 @@ int run_walk(const WalkOptions& options) {
       return s;
     }());
     tracer.set_view(camera, 1, 1);
-    std::vector<VisiblePoint> points;
-    tracer.see(points);
-    pivot = tracer.origin() + V3d(points[0].object >= 0 ? points[0].position : V3f(0.0f));
+    VisibleSurfaces seen;
+    tracer.see(seen);
+    pivot = tracer.pivot(seen);
   }
   const std::vector<Camera> cameras = camera_path(options.path, camera, pivot, options.frames);
   const bool compared = !options.reference.empty();

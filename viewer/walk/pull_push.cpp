@@ -1,10 +1,22 @@
 #include "viewer/walk/pull_push.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cstddef>
 
 namespace lumivec {
 namespace {
+
+template <typename Body>
+void for_each_row(int height, const Body& body) {
+  constexpr int grain = 16;
+  tbb::parallel_for(tbb::blocked_range<int>(0, height, grain),
+                    [&](const tbb::blocked_range<int>& r) {
+                      for (int y = r.begin(); y < r.end(); ++y) body(y);
+                    });
+}
 
 struct Level {
   int width = 0, height = 0;
@@ -24,25 +36,33 @@ struct Level {
   }
 };
 
-Level half_of(const Level& fine) {
-  Level coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
-  for (int y = 0; y < coarse.height; ++y) {
+// weight_of(i): how much is known of pixel i of the finer picture.
+template <typename WeightOf>
+Level half_of(int width, int height, const std::vector<Color>& pixels, const WeightOf& weight_of) {
+  Level coarse((width + 1) / 2, (height + 1) / 2);
+  for_each_row(coarse.height, [&](int y) {
     for (int x = 0; x < coarse.width; ++x) {
       Color sum(0.0f);
       float weight = 0.0f;
-      for (int k = 0; k < 4; ++k) {
-        const int fx = 2 * x + (k & 1), fy = 2 * y + (k >> 1);
-        if (fx >= fine.width || fy >= fine.height) continue;
-        const std::size_t i = fine.at(fx, fy);
-        sum += fine.pixels[i] * fine.weights[i];
-        weight += fine.weights[i];
+      for (int fy = 2 * y; fy < std::min(2 * y + 2, height); ++fy) {
+        for (int fx = 2 * x; fx < std::min(2 * x + 2, width); ++fx) {
+          const std::size_t i = std::size_t(fy) * std::size_t(width) + std::size_t(fx);
+          const float w = weight_of(i);
+          sum += pixels[i] * w;
+          weight += w;
+        }
       }
       const std::size_t i = coarse.at(x, y);
       if (weight > 0.0f) coarse.pixels[i] = sum * (1.0f / weight);
       coarse.weights[i] = std::min(1.0f, weight);
     }
-  }
+  });
   return coarse;
+}
+
+Level half_of(const Level& fine) {
+  return half_of(fine.width, fine.height, fine.pixels,
+                 [&](std::size_t i) { return fine.weights[i]; });
 }
 
 // Between the four pixels of the coarse level around the middle of pixel (x, y).
@@ -57,13 +77,13 @@ Color between(const Level& coarse, int x, int y) {
 }
 
 void fill(Level& fine, const Level& coarse) {
-  for (int y = 0; y < fine.height; ++y) {
+  for_each_row(fine.height, [&](int y) {
     for (int x = 0; x < fine.width; ++x) {
       const std::size_t i = fine.at(x, y);
       const float w = fine.weights[i];
       if (w < 1.0f) fine.pixels[i] = fine.pixels[i] * w + between(coarse, x, y) * (1.0f - w);
     }
-  }
+  });
 }
 
 }  // namespace
@@ -71,19 +91,17 @@ void fill(Level& fine, const Level& coarse) {
 void pull_push(int width, int height, const std::vector<std::uint8_t>& known,
                std::vector<Color>& pixels) {
   std::vector<Level> levels;
-  levels.emplace_back(width, height);
-  Level& finest = levels.front();
-  bool gaps = false;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    finest.weights[i] = known[i] != 0 ? 1.0f : 0.0f;
-    finest.pixels[i] = known[i] != 0 ? pixels[i] : Color(0.0f);
-    gaps = gaps || known[i] == 0;
-  }
-  if (!gaps) return;
+  const auto weight_of = [&](std::size_t i) { return known[i] != 0 ? 1.0f : 0.0f; };
+  levels.push_back(half_of(width, height, pixels, weight_of));
   while (levels.back().width > 1 || levels.back().height > 1)
     levels.push_back(half_of(levels.back()));
   for (std::size_t i = levels.size() - 1; i-- > 0;) fill(levels[i], levels[i + 1]);
-  std::swap(pixels, levels.front().pixels);
+  for_each_row(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+      if (known[i] == 0) pixels[i] = between(levels.front(), x, y);
+    }
+  });
 }
 
 }  // namespace lumivec

@@ -1,6 +1,5 @@
 // Fills the gaps of a picture that is known at some pixels only, from coarser and coarser versions
-// of it (Gortler, Grzeszczuk, Szeliski and Cohen 1996, "The Lumigraph", section 3.4). Costs some
-// 10 ns a pixel.
+// of it (Gortler, Grzeszczuk, Szeliski and Cohen 1996, "The Lumigraph", section 3.4).
 #pragma once
 
 #include <cstdint>

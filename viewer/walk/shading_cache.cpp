@@ -1,22 +1,22 @@
 #include "viewer/walk/shading_cache.h"
 
+#include <OpenImageIO/simd.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 
 #include "viewer/walk/pull_push.h"
+#include "viewer/walk/reprojection.h"
 
 namespace lumivec {
 namespace {
 
-// A shade is carried over between points of one surface: their normals differ by less than about
-// 25°, and each lies in the other's tangent plane up to this many pixels.
-constexpr float least_normal_cosine = 0.9f;
-constexpr float most_off_plane = 2.0f;
+using OIIO::simd::vfloat4;
+using OIIO::simd::vfloat8;
+
 // What moves over the picture rests on so many samples at most, so that it follows changes of the
 // light and is not blurred by being carried over again and again; what mirrors show moves with the
 // eye, and is trusted less.
@@ -27,6 +27,8 @@ constexpr float most_specular_samples = 2.0f;
 constexpr float least_share = 0.05f;
 // The age that counts like one sample less.
 constexpr float age_unit = 4.0f;
+// Rows whose errors are diffused by themselves, so that several threads choose.
+constexpr int band_height = 64;
 
 template <typename Body>
 void for_each_row(int height, const Body& body) {
@@ -39,195 +41,249 @@ constexpr auto specular_term = static_cast<std::size_t>(Term::specular);
 
 }  // namespace
 
-const ShadingCache::Shade ShadingCache::nothing = {};
+ShadingCache::Shades::Shades(std::size_t pixels)
+    : shade(pixels), specular_samples(pixels, 0.0f), age(pixels, 0) {}
+
+void ShadingCache::Shades::clear(std::size_t pixel) {
+  shade[pixel] = {};
+  specular_samples[pixel] = 0.0f;
+  age[pixel] = 0;
+}
 
 ShadingCache::ShadingCache(int width, int height)
     : width_(width),
       height_(height),
-      points_(std::size_t(width) * std::size_t(height)),
-      last_points_(points_.size()),
-      shades_(points_.size()),
-      last_shades_(points_.size()) {}
+      shades_(std::size_t(width) * std::size_t(height)),
+      last_shades_(shades_.shade.size()),
+      rows_(std::size_t(height)) {
+  for (VisibleSurfaces* s : {&seen_, &last_seen_}) {
+    s->resize(shades_.shade.size());
+    std::fill(s->object.begin(), s->object.end(), -1);
+  }
+}
 
-void ShadingCache::see(const LiveTracer& tracer, std::vector<VisiblePoint>& seen) {
+void ShadingCache::see(const LiveTracer& tracer, VisibleSurfaces& seen) {
   ++frame_;
-  std::swap(points_, last_points_);
-  std::swap(points_, seen);
+  std::swap(seen_, last_seen_);
+  std::swap(seen_, seen);
   std::swap(shades_, last_shades_);
+  const Reprojection reprojection(tracer.view(0), seen_, tracer.view(1), last_seen_, width_,
+                                  height_);
   for_each_row(height_, [&](int y) {
-    for (int x = 0; x < width_; ++x) {
-      const std::size_t i = at(x, y);
-      Shade& to = shades_[i];
-      if (!carry_over(tracer, points_[i], to)) to = nothing;
-      to.grow_older();
-    }
+    carry_over_row(reprojection, y);
+    grow_older(y);
   });
 }
 
 void ShadingCache::rest() {
   ++frame_;
-  for (Shade& s : shades_) s.grow_older();
+  for_each_row(height_, [&](int y) { grow_older(y); });
 }
 
 void ShadingCache::forget() {
   ++frame_;
-  std::fill(shades_.begin(), shades_.end(), nothing);
+  for_each_row(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) shades_.clear(at(x, y));
+    grow_older(y);
+  });
 }
 
-// From the four pixels around the place where the last view saw the point.
-bool ShadingCache::carry_over(const LiveTracer& tracer, const VisiblePoint& point,
-                              Shade& shade) const {
-  if (point.object < 0) return false;
-  V2f at_last;
-  if (!tracer.project(point.position, 1, at_last)) return false;
-  const float fx = at_last.x - 0.5f, fy = at_last.y - 0.5f;
-  const int x0 = static_cast<int>(std::floor(fx)), y0 = static_cast<int>(std::floor(fy));
-  const float ax = fx - static_cast<float>(x0), ay = fy - static_cast<float>(y0);
-  const float tolerance = most_off_plane * tracer.footprint(point.depth);
-  float total = 0.0f, samples = 0.0f, specular_samples = 0.0f, age = 0.0f;
-  std::array<Color, term_count> terms;
-  terms.fill(Color(0.0f));
-  for (int k = 0; k < 4; ++k) {
-    const int x = x0 + (k & 1), y = y0 + (k >> 1);
-    if (x < 0 || y < 0 || x >= width_ || y >= height_) continue;
-    const std::size_t i = at(x, y);
-    const Shade& from = last_shades_[i];
-    const VisiblePoint& other = last_points_[i];
-    if (!(from.samples > 0.0f) || other.object != point.object) continue;
-    if (other.normal.dot(point.normal) < least_normal_cosine) continue;
-    const V3f apart = other.position - point.position;
-    if (std::abs(apart.dot(point.normal)) > tolerance) continue;
-    const float weight = ((k & 1) != 0 ? ax : 1.0f - ax) * ((k >> 1) != 0 ? ay : 1.0f - ay);
-    total += weight;
-    samples += weight * from.samples;
-    specular_samples += weight * from.specular_samples;
-    age += weight * static_cast<float>(from.age);
-    for (std::size_t t = 0; t < term_count; ++t) terms[t] += from.terms[t] * weight;
+// Each pixel from the four around the place where the last view saw its point.
+void ShadingCache::carry_over_row(const Reprojection& reprojection, int y) {
+  Reprojection::Taps taps;
+  for (int left = 0; left < width_; left += static_cast<int>(Reprojection::lanes)) {
+    reprojection.find(left, y, taps);
+    const std::size_t first = at(left, y);
+    const std::size_t there =
+        std::min(Reprojection::lanes, static_cast<std::size_t>(width_ - left));
+    for (std::size_t i = 0; i < there; ++i) {
+      const std::size_t pixel = first + i;
+      vfloat8 low(0.0f), high(0.0f);
+      float total = 0.0f, specular_samples = 0.0f, age = 0.0f;
+      if (taps.total[i] > least_share) {
+        for (std::size_t tap = 0; tap < 4; ++tap) {
+          const auto index = static_cast<std::size_t>(taps.pixel[tap][i]);
+          const Shade& from = last_shades_.shade[index];
+          const float w = from.samples() > 0.0f ? taps.weight[tap][i] : 0.0f;
+          total += w;
+          low = madd(vfloat8(w), vfloat8(from.lanes.data()), low);
+          high = madd(vfloat8(w), vfloat8(from.lanes.data() + Reprojection::lanes), high);
+          specular_samples += w * last_shades_.specular_samples[index];
+          age += w * static_cast<float>(last_shades_.age[index]);
+        }
+      }
+      if (!(total > least_share)) {
+        shades_.clear(pixel);
+        continue;
+      }
+      const float scale = 1.0f / total;
+      Shade& shade = shades_.shade[pixel];
+      (low * scale).store(shade.lanes.data());
+      (high * scale).store(shade.lanes.data() + Reprojection::lanes);
+      float& samples = shade.lanes[Shade::samples_lane];
+      samples = std::min(samples, most_samples);
+      shades_.specular_samples[pixel] = std::min(specular_samples * scale, most_specular_samples);
+      shades_.age[pixel] = static_cast<std::uint16_t>(age * scale);
+    }
   }
-  if (!(total > least_share)) return false;
-  const float scale = 1.0f / total;
-  for (std::size_t t = 0; t < term_count; ++t) shade.terms[t] = terms[t] * scale;
-  shade.samples = std::min(samples * scale, most_samples);
-  shade.specular_samples = std::min(specular_samples * scale, most_specular_samples);
-  shade.age = static_cast<std::uint16_t>(std::min(age * scale, 60000.0f));
-  return true;
+}
+
+float ShadingCache::want(std::size_t pixel) const {
+  return (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) /
+         (1.0f + shades_.shade[pixel].samples());
+}
+
+void ShadingCache::grow_older(int y) {
+  Row row;
+  for (int x = 0; x < width_; ++x) {
+    const std::size_t pixel = at(x, y);
+    std::uint16_t& age = shades_.age[pixel];
+    age = static_cast<std::uint16_t>(age + (age < 0xffff ? 1 : 0));
+    row.age += age;
+    if (shades_.shade[pixel].samples() > 0.0f) {
+      row.wanted += double(want(pixel));
+    } else {
+      ++row.holes;
+    }
+  }
+  rows_[static_cast<std::size_t>(y)] = row;
 }
 
 void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests) {
-  requests.clear();
-  std::vector<float> wanted(shades_.size());
-  const auto want = [&](const Shade& s) {
-    return (1.0f + static_cast<float>(s.age) / age_unit) / (1.0f + s.samples);
-  };
-  double sum = 0.0;
-  std::size_t holes = 0;
-  for (std::size_t i = 0; i < shades_.size(); ++i) {
-    const bool hole = !(shades_[i].samples > 0.0f);
-    wanted[i] = hole ? std::numeric_limits<float>::infinity() : want(shades_[i]);
-    if (hole) {
-      ++holes;
-    } else {
-      sum += double(wanted[i]);
-    }
+  Row all;
+  for (const Row& row : rows_) {
+    all.wanted += row.wanted;
+    all.holes += row.holes;
   }
   // Holes take what there is; the rest shares out what they leave.
-  const double share_of_holes =
-      holes > 0 ? std::min(1.0, static_cast<double>(count) / static_cast<double>(holes)) : 0.0;
-  const double left = static_cast<double>(count) - static_cast<double>(holes);
-  const double scale = left > 0.0 && sum > 0.0 ? left / sum : 0.0;
+  const double holes = static_cast<double>(all.holes), asked = static_cast<double>(count);
+  const auto share_of_holes = static_cast<float>(holes > 0.0 ? std::min(1.0, asked / holes) : 0.0);
+  const double left = asked - holes;
+  const auto scale = static_cast<float>(left > 0.0 && all.wanted > 0.0 ? left / all.wanted : 0.0);
+
+  const int bands = (height_ + band_height - 1) / band_height;
+  std::vector<std::vector<LiveRequest>> chosen(static_cast<std::size_t>(bands));
   // Floyd and Steinberg 1976, rows in turn from left to right and from right to left.
-  std::vector<float> carried(std::size_t(width_) + 2, 0.0f), next(std::size_t(width_) + 2, 0.0f);
-  for (int y = 0; y < height_; ++y) {
-    const bool forward = y % 2 == 0;
-    std::fill(next.begin(), next.end(), 0.0f);
-    float ahead = 0.0f;
-    for (int k = 0; k < width_; ++k) {
-      const int x = forward ? k : width_ - 1 - k;
-      const std::size_t i = at(x, y), c = std::size_t(x) + 1;
-      const float w = wanted[i];
-      const float density =
-          static_cast<float>(std::isinf(w) ? share_of_holes : std::min(1.0, scale * double(w)));
-      const float value = density + carried[c] + ahead;
-      const bool take = value >= 0.5f;
-      if (take) requests.push_back({static_cast<std::uint32_t>(i), frame_});
-      const float error = value - (take ? 1.0f : 0.0f);
-      ahead = error * (7.0f / 16.0f);
-      const std::size_t front = forward ? c + 1 : c - 1, back = forward ? c - 1 : c + 1;
-      next[back] += error * (3.0f / 16.0f);
-      next[c] += error * (5.0f / 16.0f);
-      next[front] += error * (1.0f / 16.0f);
+  tbb::parallel_for(0, bands, [&](int band) {
+    std::vector<LiveRequest>& to = chosen[static_cast<std::size_t>(band)];
+    std::vector<float> carried(std::size_t(width_) + 2, 0.0f), next(std::size_t(width_) + 2, 0.0f);
+    const int end = std::min(height_, (band + 1) * band_height);
+    for (int y = band * band_height; y < end; ++y) {
+      const bool forward = y % 2 == 0;
+      std::fill(next.begin(), next.end(), 0.0f);
+      float ahead = 0.0f;
+      for (int k = 0; k < width_; ++k) {
+        const int x = forward ? k : width_ - 1 - k;
+        const std::size_t i = at(x, y), c = std::size_t(x) + 1;
+        const bool hole = !(shades_.shade[i].samples() > 0.0f);
+        const float density = hole ? share_of_holes : std::min(1.0f, scale * want(i));
+        const float value = density + carried[c] + ahead;
+        const bool take = value >= 0.5f;
+        if (take) to.push_back({static_cast<std::uint32_t>(i), frame_});
+        const float error = value - (take ? 1.0f : 0.0f);
+        ahead = error * (7.0f / 16.0f);
+        const std::size_t front = forward ? c + 1 : c - 1, back = forward ? c - 1 : c + 1;
+        next[back] += error * (3.0f / 16.0f);
+        next[c] += error * (5.0f / 16.0f);
+        next[front] += error * (1.0f / 16.0f);
+      }
+      // What would leave the picture stays in it.
+      next[1] += next[0];
+      next[std::size_t(width_)] += next[std::size_t(width_) + 1];
+      next[forward ? std::size_t(width_) : 1] += ahead;
+      next[0] = next[std::size_t(width_) + 1] = 0.0f;
+      std::swap(carried, next);
     }
-    // What would leave the picture stays in it.
-    next[1] += next[0];
-    next[std::size_t(width_)] += next[std::size_t(width_) + 1];
-    next[forward ? std::size_t(width_) : 1] += ahead;
-    next[0] = next[std::size_t(width_) + 1] = 0.0f;
-    std::swap(carried, next);
-  }
+  });
+  requests.clear();
+  for (const std::vector<LiveRequest>& some : chosen)
+    requests.insert(requests.end(), some.begin(), some.end());
 }
 
 void ShadingCache::add(const std::vector<LiveSample>& samples) {
-  for (const LiveSample& sample : samples) {
-    Shade& s = shades_[sample.pixel];
-    const float share = 1.0f / (s.samples + 1.0f);
-    const float specular_share = 1.0f / (s.specular_samples + 1.0f);
-    for (std::size_t t = 0; t < term_count; ++t) {
-      const float a = t == specular_term ? specular_share : share;
-      s.terms[t] = s.terms[t] * (1.0f - a) + sample.terms[t] * a;
-    }
-    s.samples += 1.0f;
-    s.specular_samples += 1.0f;
-    s.age = 0;
-  }
+  constexpr std::size_t grain = 4096;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), grain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t k = range.begin(); k < range.end(); ++k) {
+                        const LiveSample& sample = samples[k];
+                        Shade& s = shades_.shade[sample.pixel];
+                        float& count = s.lanes[Shade::samples_lane];
+                        float& specular_count = shades_.specular_samples[sample.pixel];
+                        const float share = 1.0f / (count + 1.0f),
+                                    specular_share = 1.0f / (specular_count + 1.0f);
+                        for (std::size_t t = 0; t < term_count; ++t) {
+                          const float a = t == specular_term ? specular_share : share;
+                          for (std::size_t c = 0; c < 3; ++c) {
+                            float& mean = s.lanes[3 * t + c];
+                            mean += (sample.terms[t][static_cast<int>(c)] - mean) * a;
+                          }
+                        }
+                        count += 1.0f;
+                        specular_count += 1.0f;
+                        shades_.age[sample.pixel] = 0;
+                      }
+                    });
 }
 
-Color ShadingCache::sum(const Shade& shade, std::uint32_t terms) const {
-  Color sum(0.0f);
-  for (std::size_t t = 0; t < term_count; ++t) {
-    if ((terms & (1u << t)) != 0) sum += shade.terms[t];
+// Terms lie three numbers apart; of the fourth of each nothing is kept.
+Color ShadingCache::sum(const Shade& shade, const std::array<float, term_count>& shown) {
+  vfloat4 sum(0.0f);
+  for (std::size_t t = 0; t < term_count; ++t)
+    sum = madd(vfloat4(shade.lanes.data() + 3 * t), vfloat4(shown[t]), sum);
+  return Color(sum[0], sum[1], sum[2]);
+}
+
+bool ShadingCache::same_surface(std::size_t a, std::size_t b) const {
+  return seen_.object[a] == seen_.object[b] &&
+         unpack_normal(seen_.normal[a]).dot(unpack_normal(seen_.normal[b])) >= least_normal_cosine;
+}
+
+// Of the nearest ring of pixels that show something of the same surface.
+bool ShadingCache::near_same_surface(int x, int y, const std::array<float, term_count>& shown,
+                                     Color& color) const {
+  constexpr int farthest = 2;  // pixels
+  const std::size_t i = at(x, y);
+  Color same(0.0f);
+  int count = 0;
+  for (int r = 1; r <= farthest && count == 0; ++r) {
+    for (int dy = -r; dy <= r; ++dy) {
+      const int step = std::abs(dy) == r ? 1 : 2 * r;
+      for (int dx = -r; dx <= r; dx += step) {
+        if (x + dx < 0 || y + dy < 0 || x + dx >= width_ || y + dy >= height_) continue;
+        const std::size_t j = at(x + dx, y + dy);
+        if (!(shades_.shade[j].samples() > 0.0f) || !same_surface(i, j)) continue;
+        same += sum(shades_.shade[j], shown);
+        ++count;
+      }
+    }
   }
-  return sum;
+  if (count == 0) return false;
+  color = same * (1.0f / static_cast<float>(count));
+  return true;
 }
 
 void ShadingCache::resolve(std::uint32_t terms, std::vector<Color>& picture) const {
-  constexpr int farthest = 2;  // pixels, to look for the same surface
-  picture.resize(shades_.size());
-  std::vector<std::uint8_t> known(shades_.size());
+  std::array<float, term_count> shown;
+  for (std::size_t t = 0; t < term_count; ++t) shown[t] = (terms & (1u << t)) != 0 ? 1.0f : 0.0f;
+  picture.resize(shades_.shade.size());
+  std::vector<std::uint8_t> known(shades_.shade.size());
   std::atomic<bool> any_unknown = false;
   for_each_row(height_, [&](int y) {
+    std::size_t holes = 0;
+    for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) {
+      picture[i] = sum(shades_.shade[i], shown);
+      known[i] = shades_.shade[i].samples() > 0.0f ? 1 : 0;
+      holes += 1u - known[i];
+    }
+    if (holes == 0) return;
+    bool none_near = false;
     for (int x = 0; x < width_; ++x) {
       const std::size_t i = at(x, y);
-      known[i] = 1;
-      picture[i] = Color(0.0f);
-      if (shades_[i].samples > 0.0f) {
-        picture[i] = sum(shades_[i], terms);
-        continue;
-      }
-      // The nearest ring of pixels with something of the same surface.
-      Color same(0.0f);
-      int count = 0;
-      for (int r = 1; r <= farthest && count == 0; ++r) {
-        for (int dy = -r; dy <= r; ++dy) {
-          const int step = std::abs(dy) == r ? 1 : 2 * r;
-          for (int dx = -r; dx <= r; dx += step) {
-            if (x + dx < 0 || y + dy < 0 || x + dx >= width_ || y + dy >= height_) continue;
-            const std::size_t j = at(x + dx, y + dy);
-            if (!(shades_[j].samples > 0.0f) || points_[j].object != points_[i].object ||
-                points_[j].normal.dot(points_[i].normal) < least_normal_cosine) {
-              continue;
-            }
-            same += sum(shades_[j], terms);
-            ++count;
-          }
-        }
-      }
-      if (count > 0) {
-        picture[i] = same * (1.0f / static_cast<float>(count));
-      } else {
-        known[i] = 0;
-        any_unknown.store(true, std::memory_order_relaxed);
-      }
+      if (known[i] != 0) continue;
+      known[i] = near_same_surface(x, y, shown, picture[i]) ? 1 : 0;
+      none_near = none_near || known[i] == 0;
     }
+    if (none_near) any_unknown.store(true, std::memory_order_relaxed);
   });
   if (any_unknown) pull_push(width_, height_, known, picture);
 }
@@ -238,13 +294,18 @@ void ShadingCache::resolve(Term term, std::vector<Color>& layer) const {
 
 double ShadingCache::mean_age() const {
   double sum = 0.0;
-  for (const Shade& s : shades_) sum += s.age;
-  return shades_.empty() ? 0.0 : sum / static_cast<double>(shades_.size());
+  for (const Row& row : rows_) sum += row.age;
+  return sum / static_cast<double>(shades_.shade.size());
 }
 
 std::size_t ShadingCache::hole_count() const {
-  return static_cast<std::size_t>(std::count_if(
-      shades_.begin(), shades_.end(), [](const Shade& s) { return !(s.samples > 0.0f); }));
+  std::atomic<std::size_t> count = 0;
+  for_each_row(height_, [&](int y) {
+    std::size_t in_row = 0;
+    for (int x = 0; x < width_; ++x) in_row += shades_.shade[at(x, y)].samples() > 0.0f ? 0 : 1;
+    count += in_row;
+  });
+  return count;
 }
 
 }  // namespace lumivec

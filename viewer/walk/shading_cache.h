@@ -3,14 +3,16 @@
 // Greenberg 2002, on the surfaces that pixels see; Walter, Drettakis and Parker 1999 for the choice
 // of the pixels that are traced). Silhouettes are exact and there are no holes.
 //
-// Terms are kept apart all the way: which of them are shown is decided when a frame is resolved. At
-// 512 × 512 a frame costs some 15 ms of one core besides tracing.
+// Terms are kept apart all the way: which of them are shown is decided when a frame is resolved.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "integrator/live_tracer.h"
+#include "integrator/visible_surfaces.h"
 
 namespace lumivec {
 
@@ -18,9 +20,9 @@ class ShadingCache {
  public:
   ShadingCache(int width, int height);
 
-  // A new frame of another view. seen: what the tracer sees, row by row; its contents are exchanged
-  // for the last view's.
-  void see(const LiveTracer& tracer, std::vector<VisiblePoint>& seen);
+  // A new frame of another view. seen: what the tracer sees there; its contents are exchanged for
+  // the last view's.
+  void see(const LiveTracer& tracer, VisibleSurfaces& seen);
 
   // A new frame of the same view.
   void rest();
@@ -42,25 +44,42 @@ class ShadingCache {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  // Mean over the pixels of the frames since they were traced.
+  // Mean over the pixels of the frames since they were traced, as the frame began.
   double mean_age() const;
   // Pixels that rest on no sample.
   std::size_t hole_count() const;
 
  private:
-  struct Shade {
-    std::array<Color, term_count> terms = {Color(0.0f), Color(0.0f), Color(0.0f), Color(0.0f),
-                                           Color(0.0f)};  // means
-    float samples = 0.0f;                                 // that they rest on, in effect
-    float specular_samples = 0.0f;                        // likewise of the specular term
-    std::uint16_t age = 0;                                // frames since a sample was taken
+  // Radiance of a pixel: five terms of three channels, means of samples, and how many samples they
+  // rest on, in effect. A cache line.
+  struct alignas(64) Shade {
+    static constexpr std::size_t samples_lane = 3 * term_count;
+    std::array<float, samples_lane + 1> lanes{};
 
-    void grow_older() { age = static_cast<std::uint16_t>(age + (age < 0xffff ? 1 : 0)); }
+    float samples() const { return lanes[samples_lane]; }
   };
-  static const Shade nothing;
+  struct Shades {
+    std::vector<Shade> shade;
+    std::vector<float> specular_samples;  // that the specular term rests on
+    std::vector<std::uint16_t> age;       // frames since a sample was taken
 
-  bool carry_over(const LiveTracer& tracer, const VisiblePoint& point, Shade& shade) const;
-  Color sum(const Shade& shade, std::uint32_t terms) const;
+    explicit Shades(std::size_t pixels);
+    void clear(std::size_t pixel);
+  };
+  // What choose() goes by, of a row.
+  struct Row {
+    double wanted = 0.0;  // sum over the pixels that show something
+    double age = 0.0;     // likewise over all
+    std::size_t holes = 0;
+  };
+
+  void carry_over_row(const class Reprojection& reprojection, int y);
+  void grow_older(int y);
+  float want(std::size_t pixel) const;
+  static Color sum(const Shade& shade, const std::array<float, term_count>& shown);
+  bool near_same_surface(int x, int y, const std::array<float, term_count>& shown,
+                         Color& color) const;
+  bool same_surface(std::size_t a, std::size_t b) const;
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(x);
@@ -68,8 +87,9 @@ class ShadingCache {
 
   int width_, height_;
   std::uint32_t frame_ = 0;  // numbers samples
-  std::vector<VisiblePoint> points_, last_points_;
-  std::vector<Shade> shades_, last_shades_;
+  VisibleSurfaces seen_, last_seen_;
+  Shades shades_, last_shades_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace lumivec

@@ -76,9 +76,7 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   if (moved_) {
     tracer_.set_view(camera, width_, height_);
     tracer_.see(seen_);
-    const VisiblePoint& middle =
-        seen_[std::size_t(height_ / 2) * std::size_t(width_) + std::size_t(width_ / 2)];
-    pivot_ = tracer_.origin() + V3d(middle.object >= 0 ? middle.position : V3f(0.0f));
+    pivot_ = tracer_.pivot(seen_);
   }
   if (mode_.reuse) {
     moved_ ? shading_.see(tracer_, seen_) : shading_.rest();

@@ -59,7 +59,7 @@ class WalkEngine {
   double sample_seconds_;         // of one sample, as measured
   double fixed_seconds_ = 0.005;  // of what is done once a frame after tracing, as measured
   V3d pivot_{0.0};
-  std::vector<VisiblePoint> seen_;
+  VisibleSurfaces seen_;
   std::vector<LiveRequest> requests_;
   std::vector<LiveSample> samples_;
 };

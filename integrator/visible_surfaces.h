@@ -1,0 +1,52 @@
+// What the eye sees through the middles of all pixels: enough to know a surface again in the next
+// view.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "loader/scene.h"
+
+namespace lumivec {
+
+// A direction in three signed bytes, least significant first: less than half a degree off.
+constexpr int normal_scale = 127;
+inline std::uint32_t pack_normal(const V3f& unit) {
+  const auto byte = [](float x) {
+    const float scaled = std::clamp(x, -1.0f, 1.0f) * static_cast<float>(normal_scale);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::rint(scaled))) & 0xffu;
+  };
+  return byte(unit.x) | byte(unit.y) << 8 | byte(unit.z) << 16;
+}
+// Axis 0 to 2, times normal_scale.
+inline std::int32_t packed_component(std::uint32_t normal, unsigned axis) {
+  return static_cast<std::int32_t>(normal << (24 - 8 * axis)) >> 24;
+}
+inline V3f unpack_normal(std::uint32_t normal) {
+  return V3f(static_cast<float>(packed_component(normal, 0)),
+             static_cast<float>(packed_component(normal, 1)),
+             static_cast<float>(packed_component(normal, 2))) *
+         (1.0f / static_cast<float>(normal_scale));
+}
+
+// Row by row.
+struct VisibleSurfaces {
+  static constexpr float nothing = std::numeric_limits<float>::infinity();
+
+  std::vector<float> depth;           // along the view axis, scene units; nothing: nothing
+  std::vector<std::uint32_t> normal;  // packed, geometric, on the eye's side
+  std::vector<std::int32_t> object;   // index into Scene::instances; -1: nothing
+
+  std::size_t size() const { return object.size(); }
+  void resize(std::size_t pixels) {
+    depth.resize(pixels);
+    normal.resize(pixels);
+    object.resize(pixels);
+  }
+};
+
+}  // namespace lumivec
