@@ -43,8 +43,8 @@ constexpr float gap_weight = 0.15f;
 constexpr float gather_spread = 0.0125f;
 // Below so many records paths are traced to their own ends: the cache has seen too little.
 constexpr std::uint32_t fewest_to_end_in = 512;
-// Records that are made at a time, without knowing of each other.
-constexpr std::size_t batch_size = 64;
+// Records that are made at a time when time is short.
+constexpr std::size_t hurried_batch_size = 8;
 
 // The first records, of one hemisphere each, must have errors below this share of their mean
 // brightness, but for so many.
@@ -84,6 +84,7 @@ void CacheBuilder::set_error(double error) {
 
 CacheUse CacheBuilder::path_ends() const {
   CacheUse ends = use();
+  ends.budget *= slack_;
   if (cache_.size() < fewest_to_end_in) ends.indirect = nullptr;
   ends.spread = gather_spread;
   return ends;
@@ -118,6 +119,7 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
   std::mutex mutex;
   for_each(tiles.size(), [&](std::size_t i) {
     CacheUse asking = use();
+    asking.budget *= slack_;
     asking.needed_weight = weight;
     asking.requests = &found[i];
     asking.requested = term_;
@@ -164,17 +166,17 @@ bool CacheBuilder::make_records(std::vector<RecordRequest>& requests, float weig
     if (!go_on()) return false;
     // The next that are still wanted.
     std::vector<std::size_t> batch;
-    while (next < requests.size() && batch.size() < batch_size) {
-      const std::size_t group = std::min(batch_size, requests.size() - next);
+    while (next < requests.size() && batch.size() < batch_size_) {
+      const std::size_t group = std::min(batch_size_, requests.size() - next);
       std::vector<std::uint8_t> wanted(group);
       for_each(group, [&](std::size_t i) {
         CachedLight light;
         std::uint64_t visibility_rays = 0;
-        wanted[i] =
-            !cache_.look_up(requests[next + i].point, budget_, weight, light, visibility_rays);
+        wanted[i] = !cache_.look_up(requests[next + i].point, budget_ * slack_, weight, light,
+                                    visibility_rays);
       });
       std::size_t used = 0;
-      for (; used < group && batch.size() < batch_size; ++used) {
+      for (; used < group && batch.size() < batch_size_; ++used) {
         if (wanted[used]) batch.push_back(next + used);
       }
       next += used;
@@ -217,13 +219,18 @@ bool CacheBuilder::build(const std::vector<Tile>& tiles, const std::function<boo
          refine(go_on, statistics);
 }
 
-bool CacheBuilder::extend(const std::vector<Tile>& tiles, int stride, int phase,
+bool CacheBuilder::extend(const std::vector<Tile>& tiles, int stride, int phase, float slack,
                           const std::function<bool()>& go_on, RenderStatistics& statistics) {
+  batch_size_ = hurried_batch_size;
+  slack_ = slack;
   std::vector<RecordRequest> requests = collect(tiles, stride, phase, wanted_weight, statistics);
-  const std::uint32_t before = cache_.size();
   const bool all = make_records(requests, wanted_weight, go_on, statistics);
-  if (cache_.size() != before) cache_.commit(budget_);
-  return all && refine(go_on, statistics);
+  slack_ = 1.0f;
+  if (cache_.size() >= committed_ + committed_ / 8 + 1 || (all && cache_.size() != committed_)) {
+    cache_.commit(budget_);
+    committed_ = cache_.size();
+  }
+  return all && (slack > 1.0f || refine(go_on, statistics));
 }
 
 bool CacheBuilder::try_out(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
@@ -242,8 +249,7 @@ bool CacheBuilder::try_out(const std::vector<Tile>& tiles, const std::function<b
 }
 
 bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& statistics) {
-  constexpr std::size_t group = 64;
-  std::array<IrradianceRecord, group> refined;
+  std::vector<IrradianceRecord> refined(batch_size_);
   std::mutex mutex;
   while (true) {
     std::vector<std::uint32_t> wanting;
@@ -263,12 +269,12 @@ bool CacheBuilder::refine(const std::function<bool()>& go_on, RenderStatistics& 
     // not depend on the order in which it is made.
     cache_.commit(budget_);
     const CacheUse ends = path_ends();
-    for (std::size_t first = 0; first < wanting.size(); first += group) {
+    for (std::size_t first = 0; first < wanting.size(); first += batch_size_) {
       if (!go_on()) {
         cache_.rebuild();
         return false;
       }
-      const std::size_t count = std::min(group, wanting.size() - first);
+      const std::size_t count = std::min(batch_size_, wanting.size() - first);
       for_each(count, [&](std::size_t i) {
         const std::uint32_t index = wanting[first + i];
         RenderStatistics counts;

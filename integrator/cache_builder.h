@@ -43,9 +43,10 @@ class CacheBuilder {
              RenderStatistics& statistics);
 
   // For a view that changes: makes records that every stride-th pixel lacks, in both directions,
-  // from pixel `phase` of each such block on, row by row. Then, while time is left, what refine()
-  // does. As build().
-  bool extend(const std::vector<Tile>& tiles, int stride, int phase,
+  // from pixel `phase` of each such block on, row by row, where no record holds for a budget that
+  // is slack times what the error asks, ≥ 1. Then, at a slack of one and while time is left, what
+  // refine() does. go_on is asked more often. As build().
+  bool extend(const std::vector<Tile>& tiles, int stride, int phase, float slack,
               const std::function<bool()>& go_on, RenderStatistics& statistics);
 
   // How pixels use the cache.
@@ -72,10 +73,13 @@ class CacheBuilder {
   const Term term_;
   const PhotonMap* photons_ = nullptr;
   const IrradianceCache* direct_ = nullptr;
-  float budget_ = 0.0f;         // scene units², see IrradianceCache
-  float most_variance_ = 0.0f;  // of a record's irradiance, relative
-  HemisphereCells cells_;       // of a record's hemispheres
-  std::uint32_t passes_ = 1;    // hemispheres of a record
+  float budget_ = 0.0f;          // scene units², see IrradianceCache
+  float slack_ = 1.0f;           // factor of it
+  float most_variance_ = 0.0f;   // of a record's irradiance, relative
+  HemisphereCells cells_;        // of a record's hemispheres
+  std::uint32_t passes_ = 1;     // hemispheres of a record
+  std::size_t batch_size_ = 64;  // records that are made at a time, without knowing of each other
+  std::uint32_t committed_ = 0;  // records at the last commit, of extend() alone
   std::optional<HemisphereGather> gather_;
   std::vector<RecordRequest> places_;  // of the records, to refine them
 };

@@ -35,9 +35,12 @@ constexpr int block_width = 4, block_height = packet_size / block_width;
 constexpr int record_stride = 16;
 // Odd, so that all places of a block have their turn.
 constexpr int phase_step = 101;
-// While records are missing those there are reach twice as far as they should, and err sixteen
-// times as much: less than what few whole paths bring.
-constexpr float meanwhile_budget = 16.0f;
+// Records are made from coarse to fine: first such that reach four times as far as they should,
+// and err 256 times as much; then twice as far. While those are missing which a pixel should have,
+// it makes do with others, and at last with any in an eighth of the scene or so: they err less than
+// what a few whole paths bring.
+constexpr std::array<float, 3> slacks = {256.0f, 16.0f, 1.0f};
+constexpr std::array<float, 2> meanwhile_slacks = {16.0f, 4096.0f};
 // Light paths of a photon map.
 constexpr std::uint64_t map_paths = 1 << 16;
 constexpr std::uint32_t map_batch = 4096;
@@ -153,7 +156,7 @@ struct LiveTracer::State {
   std::vector<Tile> tiles;
   int tiles_across = 0;
   int phase = 0;
-  bool complete = false;  // records were found wherever they were looked for last
+  std::size_t level = 0;  // of slacks, that records are made for
   RenderStatistics statistics;
   std::mutex mutex;  // of the statistics
 };
@@ -230,7 +233,9 @@ void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
   CacheUse use;
   if (s.builder) {
     use = s.builder->use();
-    if (!s.complete) use.budget *= meanwhile_budget;
+    if (s.level + 1 < slacks.size()) use.budget *= slacks[s.level + 1];
+    for (std::size_t i = 0; i < meanwhile_slacks.size(); ++i)
+      use.meanwhile_budgets[i] = use.budget * meanwhile_slacks[i];
   }
   s.arena.execute([&] {
     const Tile picture = {0, 0, s.settings.width, s.settings.height};
@@ -259,12 +264,19 @@ bool LiveTracer::improve(double seconds) {
   const auto go_on = [&] {
     return std::chrono::duration<double>(Clock::now() - start).count() < seconds;
   };
-  s.phase = (s.phase + phase_step) % (record_stride * record_stride);
-  const std::uint32_t before = s.cache.size();
   bool all = true;
-  s.arena.execute(
-      [&] { all = s.builder->extend(s.tiles, record_stride, s.phase, go_on, s.statistics); });
-  s.complete = all && s.cache.size() == before;
+  while (true) {
+    s.phase = (s.phase + phase_step) % (record_stride * record_stride);
+    const std::uint32_t before = s.cache.size();
+    s.arena.execute([&] {
+      all =
+          s.builder->extend(s.tiles, record_stride, s.phase, slacks[s.level], go_on, s.statistics);
+    });
+    // What the eye comes to see later is made at the finest level at once.
+    const bool enough = s.cache.size() - before <= before / 32;
+    if (!all || s.level + 1 == slacks.size()) break;
+    if (enough) ++s.level;
+  }
   s.statistics.records = s.cache.size();
   s.statistics.cache_bytes = s.cache.bytes() + s.photons.bytes();
   return all;

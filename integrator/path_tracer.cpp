@@ -702,7 +702,11 @@ class PathStream {
     }
     ++statistics_.cache_misses;
     if (cache_.requests) cache_.requests->push_back({at, lane.media});
-    return false;
+    return std::any_of(cache_.meanwhile_budgets.begin(), cache_.meanwhile_budgets.end(),
+                       [&](float budget) {
+                         return budget > 0.0f &&
+                                cache.look_up(at, budget, 0.0f, light, statistics_.rays_visibility);
+                       });
   }
 
   bool use_paper_cache(Lane& lane, const PaperPoint& point, const Bsdf& bsdf) {

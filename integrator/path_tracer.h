@@ -82,6 +82,9 @@ struct CacheUse {
   const PaperCache* paper = nullptr;
   float budget = 0.0f;  // scene units² (IrradianceCache)
   float needed_weight = 0.0f;
+  // What indirect light is not found within the budget is looked for once more with the first of
+  // these that finds any record, however little it weighs; 0: it is not.
+  std::array<float, 2> meanwhile_budgets = {0.0f, 0.0f};
   // Where to note what was not found; null: paths go on there as if there were no cache.
   std::vector<RecordRequest>* requests = nullptr;
   Term requested = Term::indirect;  // or direct

@@ -33,6 +33,17 @@ inline V3f unpack_normal(std::uint32_t normal) {
          (1.0f / static_cast<float>(normal_scale));
 }
 
+// Normals of one surface at neighbouring pixels differ by less than about 25°.
+constexpr float least_normal_cosine = 0.9f;
+constexpr auto least_normal_product =
+    static_cast<std::int32_t>(least_normal_cosine * normal_scale * normal_scale);
+inline bool normals_alike(std::uint32_t a, std::uint32_t b) {
+  return packed_component(a, 0) * packed_component(b, 0) +
+             packed_component(a, 1) * packed_component(b, 1) +
+             packed_component(a, 2) * packed_component(b, 2) >=
+         least_normal_product;
+}
+
 // Row by row.
 struct VisibleSurfaces {
   static constexpr float nothing = std::numeric_limits<float>::infinity();

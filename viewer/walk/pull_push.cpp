@@ -4,10 +4,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace lumivec {
 namespace {
+
+// What another surface counts beside the same one: enough where there is nothing else.
+constexpr float other_surface = 1e-4f;
 
 template <typename Body>
 void for_each_row(int height, const Body& body) {
@@ -18,88 +22,114 @@ void for_each_row(int height, const Body& body) {
                     });
 }
 
-struct Level {
-  int width = 0, height = 0;
-  std::vector<Color> pixels;   // means of what is known
-  std::vector<float> weights;  // [0, 1]: how much is known
+struct Surface {
+  std::int32_t object = -1;
+  std::uint32_t normal = 0;  // packed
 
-  Level(int w, int h)
-      : width(w),
-        height(h),
-        pixels(std::size_t(w) * std::size_t(h), Color(0.0f)),
-        weights(pixels.size(), 0.0f) {}
-
-  std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(std::clamp(y, 0, height - 1)) *
-               static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(std::clamp(x, 0, width - 1));
+  bool same_as(const Surface& other) const {
+    return object == other.object &&
+           (normal == other.normal || normals_alike(normal, other.normal));
   }
 };
 
-// weight_of(i): how much is known of pixel i of the finer picture.
-template <typename WeightOf>
-Level half_of(int width, int height, const std::vector<Color>& pixels, const WeightOf& weight_of) {
+struct Cell {
+  Color mean{0.0f};     // of what is known
+  float weight = 0.0f;  // [0, 1]: how much is known
+  Surface surface;      // that the mean is of
+};
+
+struct Level {
+  int width = 0, height = 0;
+  std::vector<Cell> cells;
+
+  Level(int w, int h) : width(w), height(h), cells(std::size_t(w) * std::size_t(h)) {}
+
+  const Cell& at(int x, int y) const {
+    return cells[static_cast<std::size_t>(std::clamp(y, 0, height - 1)) *
+                     static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(std::clamp(x, 0, width - 1))];
+  }
+};
+
+// cell_at(x, y): of the finer picture.
+template <typename CellAt>
+Level half_of(int width, int height, const CellAt& cell_at) {
   Level coarse((width + 1) / 2, (height + 1) / 2);
   for_each_row(coarse.height, [&](int y) {
     for (int x = 0; x < coarse.width; ++x) {
-      Color sum(0.0f);
-      float weight = 0.0f;
+      std::array<Cell, 4> fine;
+      std::size_t count = 0, most = 0;
       for (int fy = 2 * y; fy < std::min(2 * y + 2, height); ++fy) {
         for (int fx = 2 * x; fx < std::min(2 * x + 2, width); ++fx) {
-          const std::size_t i = std::size_t(fy) * std::size_t(width) + std::size_t(fx);
-          const float w = weight_of(i);
-          sum += pixels[i] * w;
-          weight += w;
+          fine[count] = cell_at(fx, fy);
+          if (fine[count].weight > fine[most].weight) most = count;
+          ++count;
         }
       }
-      const std::size_t i = coarse.at(x, y);
-      if (weight > 0.0f) coarse.pixels[i] = sum * (1.0f / weight);
-      coarse.weights[i] = std::min(1.0f, weight);
+      Cell& cell = coarse.cells[std::size_t(y) * std::size_t(coarse.width) + std::size_t(x)];
+      cell.surface = fine[most].surface;
+      float weight = 0.0f;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!(fine[i].weight > 0.0f) || !fine[i].surface.same_as(cell.surface)) continue;
+        cell.mean += fine[i].mean * fine[i].weight;
+        weight += fine[i].weight;
+      }
+      if (weight > 0.0f) cell.mean *= 1.0f / weight;
+      cell.weight = std::min(1.0f, weight);
     }
   });
   return coarse;
 }
 
-Level half_of(const Level& fine) {
-  return half_of(fine.width, fine.height, fine.pixels,
-                 [&](std::size_t i) { return fine.weights[i]; });
-}
-
-// Between the four pixels of the coarse level around the middle of pixel (x, y).
-Color between(const Level& coarse, int x, int y) {
+// Between the four cells of the coarse level around the middle of cell (x, y) of the finer one.
+Color between(const Level& coarse, int x, int y, const Surface& surface) {
   constexpr float near = 0.75f, far = 0.25f;
   const int cx = x / 2, cy = y / 2, dx = x % 2 == 0 ? -1 : 1, dy = y % 2 == 0 ? -1 : 1;
-  return (coarse.pixels[coarse.at(cx, cy)] * near + coarse.pixels[coarse.at(cx + dx, cy)] * far) *
-             near +
-         (coarse.pixels[coarse.at(cx, cy + dy)] * near +
-          coarse.pixels[coarse.at(cx + dx, cy + dy)] * far) *
-             far;
-}
-
-void fill(Level& fine, const Level& coarse) {
-  for_each_row(fine.height, [&](int y) {
-    for (int x = 0; x < fine.width; ++x) {
-      const std::size_t i = fine.at(x, y);
-      const float w = fine.weights[i];
-      if (w < 1.0f) fine.pixels[i] = fine.pixels[i] * w + between(coarse, x, y) * (1.0f - w);
-    }
-  });
+  Color sum(0.0f);
+  float total = 0.0f;
+  for (int k = 0; k < 4; ++k) {
+    const bool right = (k & 1) != 0, down = (k >> 1) != 0;
+    const Cell& cell = coarse.at(right ? cx + dx : cx, down ? cy + dy : cy);
+    const float w = (right ? far : near) * (down ? far : near) *
+                    (cell.surface.same_as(surface) ? 1.0f : other_surface) * cell.weight;
+    sum += cell.mean * w;
+    total += w;
+  }
+  return total > 0.0f ? sum * (1.0f / total) : Color(0.0f);
 }
 
 }  // namespace
 
 void pull_push(int width, int height, const std::vector<std::uint8_t>& known,
-               std::vector<Color>& pixels) {
+               const VisibleSurfaces& seen, std::vector<Color>& pixels) {
+  const auto surface_of = [&](std::size_t i) { return Surface{seen.object[i], seen.normal[i]}; };
   std::vector<Level> levels;
-  const auto weight_of = [&](std::size_t i) { return known[i] != 0 ? 1.0f : 0.0f; };
-  levels.push_back(half_of(width, height, pixels, weight_of));
-  while (levels.back().width > 1 || levels.back().height > 1)
-    levels.push_back(half_of(levels.back()));
-  for (std::size_t i = levels.size() - 1; i-- > 0;) fill(levels[i], levels[i + 1]);
+  levels.push_back(half_of(width, height, [&](int x, int y) {
+    const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+    return Cell{pixels[i], known[i] != 0 ? 1.0f : 0.0f, surface_of(i)};
+  }));
+  while (levels.back().width > 1 || levels.back().height > 1) {
+    const Level& fine = levels.back();
+    levels.push_back(half_of(fine.width, fine.height, [&](int x, int y) { return fine.at(x, y); }));
+  }
+  // The coarsest level knows if anything is known.
+  for (std::size_t l = levels.size() - 1; l-- > 0;) {
+    Level& fine = levels[l];
+    const Level& coarse = levels[l + 1];
+    for_each_row(fine.height, [&](int y) {
+      for (int x = 0; x < fine.width; ++x) {
+        Cell& cell = fine.cells[std::size_t(y) * std::size_t(fine.width) + std::size_t(x)];
+        if (cell.weight >= 1.0f) continue;
+        cell.mean =
+            cell.mean * cell.weight + between(coarse, x, y, cell.surface) * (1.0f - cell.weight);
+        cell.weight = 1.0f;
+      }
+    });
+  }
   for_each_row(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-      if (known[i] == 0) pixels[i] = between(levels.front(), x, y);
+      if (known[i] == 0) pixels[i] = between(levels.front(), x, y, surface_of(i));
     }
   });
 }

@@ -84,24 +84,24 @@ void Reprojection::find(int left, int y, Taps& taps) const {
   const float row = static_cast<float>(y) + 0.5f;
   const vfloat8 column = vfloat8::Iota(static_cast<float>(left) + 0.5f);
   const PicturePlane& plane = plane_then_;
-  const Vectors start = affine(rays_.origin + rays_.origin_y * row - plane.eye, rays_.origin_x, column);
-  const Vectors along = affine(rays_.direction + rays_.direction_y * row, rays_.direction_x, column);
+  const Vectors start =
+      affine(rays_.origin + rays_.origin_y * row - plane.eye, rays_.origin_x, column);
+  const Vectors along =
+      affine(rays_.direction + rays_.direction_y * row, rays_.direction_x, column);
   const Vectors p = {madd(along.x, depth, start.x), madd(along.y, depth, start.y),
                      madd(along.z, depth, start.z)};
   const Normals normal = unpack(packed);
   constexpr float unit = 1.0f / static_cast<float>(normal_scale);
   const Vectors n = {vfloat8(normal.x) * unit, vfloat8(normal.y) * unit, vfloat8(normal.z) * unit};
   const vfloat8 on_plane = p.x * n.x + p.y * n.y + p.z * n.z;
-  const vfloat8 tolerance = vfloat8(most_off_plane) *
-                            madd(vfloat8(pixel_size_per_depth_), depth, vfloat8(pixel_size_));
+  const vfloat8 tolerance =
+      vfloat8(most_off_plane) * madd(vfloat8(pixel_size_per_depth_), depth, vfloat8(pixel_size_));
 
   const vfloat8 z = dot(p, plane.forward);
   const vfloat8 divisor = plane.perspective ? z : vfloat8(1.0f);
   const vfloat8 inverse = vfloat8(1.0f) / divisor;
   // Places far outside the picture, or nowhere, are kept within what integers hold.
-  const auto bounded = [](const vfloat8& x) {
-    return min(max(x, vfloat8(-2.0f)), vfloat8(1e6f));
-  };
+  const auto bounded = [](const vfloat8& x) { return min(max(x, vfloat8(-2.0f)), vfloat8(1e6f)); };
   const vfloat8 u = bounded(madd(dot(p, plane.x_axis), inverse, vfloat8(plane.center.x - 0.5f)));
   const vfloat8 v = bounded(madd(dot(p, plane.y_axis), inverse, vfloat8(plane.center.y - 0.5f)));
   const vfloat8 u0 = floor(u), v0 = floor(v);
@@ -111,8 +111,6 @@ void Reprojection::find(int left, int y, Taps& taps) const {
 
   const PictureRays& then = rays_then_;
   const V3f origin = then.origin - plane.eye;
-  const vint8 least_product(
-      static_cast<int>(least_normal_cosine * static_cast<float>(normal_scale * normal_scale)));
   vfloat8 total(0.0f);
   for (std::size_t tap = 0; tap < 4; ++tap) {
     const bool right = (tap & 1) != 0, down = (tap >> 1) != 0;
@@ -141,8 +139,8 @@ void Reprojection::find(int left, int y, Taps& taps) const {
                         off_plane(n.z, origin.z, then.origin_x.z, then.origin_y.z, then.direction.z,
                                   then.direction_x.z, then.direction_y.z) -
                         on_plane;
-    const vbool8 same = inside & (object_then == object) & (product >= least_product) &
-                        (abs(off) <= tolerance);
+    const vbool8 same = inside & (object_then == object) &
+                        (product >= vint8(least_normal_product)) & (abs(off) <= tolerance);
     const vfloat8 share = (right ? ax : vfloat8(1.0f) - ax) * (down ? ay : vfloat8(1.0f) - ay);
     const vfloat8 weight = blend0(share, same);
     weight.store(taps.weight[tap].data());

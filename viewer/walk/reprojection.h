@@ -10,9 +10,6 @@
 
 namespace lumivec {
 
-// Normals of one surface differ by less than about 25°.
-constexpr float least_normal_cosine = 0.9f;
-
 class Reprojection {
  public:
   // Neighbouring pixels of a row that are looked up at once.

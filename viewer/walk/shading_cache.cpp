@@ -233,35 +233,6 @@ Color ShadingCache::sum(const Shade& shade, const std::array<float, term_count>&
   return Color(sum[0], sum[1], sum[2]);
 }
 
-bool ShadingCache::same_surface(std::size_t a, std::size_t b) const {
-  return seen_.object[a] == seen_.object[b] &&
-         unpack_normal(seen_.normal[a]).dot(unpack_normal(seen_.normal[b])) >= least_normal_cosine;
-}
-
-// Of the nearest ring of pixels that show something of the same surface.
-bool ShadingCache::near_same_surface(int x, int y, const std::array<float, term_count>& shown,
-                                     Color& color) const {
-  constexpr int farthest = 2;  // pixels
-  const std::size_t i = at(x, y);
-  Color same(0.0f);
-  int count = 0;
-  for (int r = 1; r <= farthest && count == 0; ++r) {
-    for (int dy = -r; dy <= r; ++dy) {
-      const int step = std::abs(dy) == r ? 1 : 2 * r;
-      for (int dx = -r; dx <= r; dx += step) {
-        if (x + dx < 0 || y + dy < 0 || x + dx >= width_ || y + dy >= height_) continue;
-        const std::size_t j = at(x + dx, y + dy);
-        if (!(shades_.shade[j].samples() > 0.0f) || !same_surface(i, j)) continue;
-        same += sum(shades_.shade[j], shown);
-        ++count;
-      }
-    }
-  }
-  if (count == 0) return false;
-  color = same * (1.0f / static_cast<float>(count));
-  return true;
-}
-
 void ShadingCache::resolve(std::uint32_t terms, std::vector<Color>& picture) const {
   std::array<float, term_count> shown;
   for (std::size_t t = 0; t < term_count; ++t) shown[t] = (terms & (1u << t)) != 0 ? 1.0f : 0.0f;
@@ -275,17 +246,9 @@ void ShadingCache::resolve(std::uint32_t terms, std::vector<Color>& picture) con
       known[i] = shades_.shade[i].samples() > 0.0f ? 1 : 0;
       holes += 1u - known[i];
     }
-    if (holes == 0) return;
-    bool none_near = false;
-    for (int x = 0; x < width_; ++x) {
-      const std::size_t i = at(x, y);
-      if (known[i] != 0) continue;
-      known[i] = near_same_surface(x, y, shown, picture[i]) ? 1 : 0;
-      none_near = none_near || known[i] == 0;
-    }
-    if (none_near) any_unknown.store(true, std::memory_order_relaxed);
+    if (holes > 0) any_unknown.store(true, std::memory_order_relaxed);
   });
-  if (any_unknown) pull_push(width_, height_, known, picture);
+  if (any_unknown) pull_push(width_, height_, known, seen_, picture);
 }
 
 void ShadingCache::resolve(Term term, std::vector<Color>& layer) const {

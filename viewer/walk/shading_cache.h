@@ -77,9 +77,6 @@ class ShadingCache {
   void grow_older(int y);
   float want(std::size_t pixel) const;
   static Color sum(const Shade& shade, const std::array<float, term_count>& shown);
-  bool near_same_surface(int x, int y, const std::array<float, term_count>& shown,
-                         Color& color) const;
-  bool same_surface(std::size_t a, std::size_t b) const;
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(x);

@@ -19,6 +19,9 @@ constexpr double first_sample_seconds = 4e-6;
 constexpr double learning = 0.3;
 // Of a frame's time for tracing, records have this share while there are some to make.
 constexpr double share_of_records = 0.4;
+// The first picture may take so long, or a frame's time if that is more: without any record its
+// samples would be whole paths, which are noisy for long.
+constexpr double first_frame_seconds = 0.2;
 // However slow a machine is, at least this share of the pixels is traced in every frame.
 constexpr double least_traced_share = 0.02;
 
@@ -78,6 +81,7 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
     tracer_.see(seen_);
     pivot_ = tracer_.pivot(seen_);
   }
+  if (frame_ == 0) frame_time = std::max(frame_time, first_frame_seconds);
   if (mode_.reuse) {
     moved_ ? shading_.see(tracer_, seen_) : shading_.rest();
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
