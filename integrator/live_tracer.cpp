@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int tile_side = 32;  // pixels
-// Samples that a thread traces at once.
+// Samples or rays that a thread traces at once.
 constexpr std::size_t chunk_size = 256;
 // Of a packet of rays.
 constexpr int block_width = 4, block_height = packet_size / block_width;
@@ -77,33 +77,32 @@ struct LiveTracer::State {
     has_photons = true;
   }
 
-  // The pixels of one packet of rays, from (left, top) on.
-  void see_block(const PictureRays& rays, int left, int top, VisibleSurfaces& seen) const {
+  // Up to a packet of pixels.
+  void see_packet(const PictureRays& rays, const std::uint32_t* pixels, std::size_t count,
+                  VisibleSurfaces& seen) const {
     RTCRayHit8 packet;
     set_constants(packet.ray);
     std::uint32_t seeds[packet_size] = {};
     alignas(32) int valid[packet_size];
     std::array<V3f, packet_size> direction;
-    // Lanes outside the picture are traced and forgotten.
-    for (int i = 0; i < packet_size; ++i) {
-      const float x = static_cast<float>(left + i % block_width) + 0.5f,
-                  y = static_cast<float>(top + i / block_width) + 0.5f;
-      direction[std::size_t(i)] = rays.direction + rays.direction_x * x + rays.direction_y * y;
-      set_ray(packet, i, rays.origin + rays.origin_x * x + rays.origin_y * y,
-              direction[std::size_t(i)], rays.near, rays.far);
+    const auto width = static_cast<std::uint32_t>(settings.width);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float x = static_cast<float>(pixels[i] % width) + 0.5f,
+                  y = static_cast<float>(pixels[i] / width) + 0.5f;
+      direction[i] = rays.direction + rays.direction_x * x + rays.direction_y * y;
+      set_ray(packet, static_cast<int>(i), rays.origin + rays.origin_x * x + rays.origin_y * y,
+              direction[i], rays.near, rays.far);
     }
-    set_valid(packet.ray, packet_size, valid);
+    set_valid(packet.ray, static_cast<int>(count), valid);
     TraceQuery query = traced.query();
     query.seeds = seeds;
     embree::intersect8_coherent(valid, traced.handle(), query.context, packet);
-    for (int i = 0; i < packet_size; ++i) {
-      const int x = left + i % block_width, y = top + i / block_width;
-      if (x >= settings.width || y >= settings.height) continue;
-      const std::size_t pixel = std::size_t(y) * std::size_t(settings.width) + std::size_t(x);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t pixel = pixels[i];
       const RTCHit8& h = packet.hit;
       const RayHit hit = {packet.ray.tfar[i], h.u[i],      h.v[i],
                           h.geomID[i],        h.primID[i], h.instID[0][i]};
-      const V3f& along = direction[std::size_t(i)];
+      const V3f& along = direction[i];
       float depth = VisibleSurfaces::nothing;
       int object = -1;
       V3f normal(0.0f);
@@ -195,11 +194,32 @@ void LiveTracer::see(VisibleSurfaces& seen) {
   const PictureRays rays = s.view->rays();
   s.arena.execute([&] {
     for_each(std::size_t((height + block_height - 1) / block_height), [&](std::size_t row) {
-      const int y = static_cast<int>(row) * block_height;
-      for (int x = 0; x < width; x += block_width) s.see_block(rays, x, y, seen);
+      const int top = static_cast<int>(row) * block_height;
+      for (int left = 0; left < width; left += block_width) {
+        std::array<std::uint32_t, packet_size> pixels;
+        std::size_t count = 0;
+        for (int y = top; y < std::min(top + block_height, height); ++y) {
+          for (int x = left; x < std::min(left + block_width, width); ++x)
+            pixels[count++] = static_cast<std::uint32_t>(y * width + x);
+        }
+        s.see_packet(rays, pixels.data(), count, seen);
+      }
     });
   });
   s.statistics.rays_camera += seen.size();
+}
+
+void LiveTracer::see(const std::vector<std::uint32_t>& pixels, VisibleSurfaces& seen) {
+  State& s = *state_;
+  const PictureRays rays = s.view->rays();
+  s.arena.execute([&] {
+    for_each((pixels.size() + chunk_size - 1) / chunk_size, [&](std::size_t chunk) {
+      const std::size_t end = std::min(pixels.size(), (chunk + 1) * chunk_size);
+      for (std::size_t i = chunk * chunk_size; i < end; i += packet_size)
+        s.see_packet(rays, pixels.data() + i, std::min(std::size_t{packet_size}, end - i), seen);
+    });
+  });
+  s.statistics.rays_camera += pixels.size();
 }
 
 V3d LiveTracer::pivot(const VisibleSurfaces& seen) const {

@@ -39,6 +39,8 @@ class LiveTracer {
 
   // Through the middles of all pixels.
   void see(VisibleSurfaces& seen);
+  // Through the middles of these alone, best neighbours together; seen must have its size.
+  void see(const std::vector<std::uint32_t>& pixels, VisibleSurfaces& seen);
 
   // Where the eye looks: what it sees in the middle, world space; the scene's middle if nothing is
   // there.

@@ -90,10 +90,10 @@ TEST(shading_cache, traces_about_as_many_pixels_as_asked) {
   const Scene scene = cornell_scene();
   LiveTracer tracer(scene, walk_settings(64));
   tracer.set_view(cornell_camera(), 64, 64);
-  VisibleSurfaces seen;
-  tracer.see(seen);
+  Visibility visibility(64, 64);
+  visibility.see_all(tracer);
   ShadingCache cache(64, 64);
-  cache.see(tracer, seen);
+  cache.see(tracer, visibility);
   std::vector<LiveRequest> requests;
   for (const std::size_t count : {50u, 400u, 4096u}) {
     cache.rest();
@@ -114,10 +114,10 @@ TEST(shading_cache, untraced_pixels_come_first) {
   const Scene scene = cornell_scene();
   LiveTracer tracer(scene, walk_settings(32));
   tracer.set_view(cornell_camera(), 32, 32);
-  VisibleSurfaces seen;
-  tracer.see(seen);
+  Visibility visibility(32, 32);
+  visibility.see_all(tracer);
   ShadingCache cache(32, 32);
-  cache.see(tracer, seen);
+  cache.see(tracer, visibility);
   std::vector<LiveRequest> requests;
   std::vector<LiveSample> samples;
   cache.choose(512, requests);

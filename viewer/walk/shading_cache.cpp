@@ -25,6 +25,8 @@ constexpr float most_specular_samples = 2.0f;
 // Of four pixels around a place, those of other surfaces are left out; less than this share of
 // theirs is too little to go by.
 constexpr float least_share = 0.05f;
+// The share of its four pixels in the last view that must have shown a surface which is guessed.
+constexpr float sure_share = 0.999f;
 // The age that counts like one sample less.
 constexpr float age_unit = 4.0f;
 // Rows whose errors are diffused by themselves, so that several threads choose.
@@ -55,22 +57,30 @@ ShadingCache::ShadingCache(int width, int height)
       height_(height),
       shades_(std::size_t(width) * std::size_t(height)),
       last_shades_(shades_.shade.size()),
-      rows_(std::size_t(height)) {
-  for (VisibleSurfaces* s : {&seen_, &last_seen_}) {
-    s->resize(shades_.shade.size());
-    std::fill(s->object.begin(), s->object.end(), -1);
-  }
-}
+      rows_(std::size_t(height)) {}
 
-void ShadingCache::see(const LiveTracer& tracer, VisibleSurfaces& seen) {
+void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
   ++frame_;
-  std::swap(seen_, last_seen_);
-  std::swap(seen_, seen);
   std::swap(shades_, last_shades_);
-  const Reprojection reprojection(tracer.view(0), seen_, tracer.view(1), last_seen_, width_,
-                                  height_);
+  const Reprojection reprojection(tracer.view(0), visibility.now(), tracer.view(1),
+                                  visibility.last(), width_, height_);
+  constexpr auto lanes = static_cast<int>(Reprojection::lanes);
+  std::vector<std::vector<std::uint32_t>> doubtful(static_cast<std::size_t>(height_));
   for_each_row(height_, [&](int y) {
-    carry_over_row(reprojection, y);
+    for (int left = 0; left < width_; left += lanes)
+      carry_over(reprojection, left, y, visibility, doubtful[static_cast<std::size_t>(y)]);
+  });
+  std::vector<std::uint32_t> pixels;
+  join_lists(doubtful, pixels);
+  visibility.settle(tracer, pixels);
+  for_each_row(height_, [&](int y) {
+    std::vector<std::uint32_t> none;
+    int done = -1;
+    for (const std::uint32_t pixel : doubtful[static_cast<std::size_t>(y)]) {
+      const int left = static_cast<int>(pixel - at(0, y)) / lanes * lanes;
+      if (left != done) carry_over(reprojection, left, y, visibility, none);
+      done = left;
+    }
     grow_older(y);
   });
 }
@@ -89,42 +99,44 @@ void ShadingCache::forget() {
 }
 
 // Each pixel from the four around the place where the last view saw its point.
-void ShadingCache::carry_over_row(const Reprojection& reprojection, int y) {
+void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
+                              const Visibility& visibility, std::vector<std::uint32_t>& doubtful) {
   Reprojection::Taps taps;
-  for (int left = 0; left < width_; left += static_cast<int>(Reprojection::lanes)) {
-    reprojection.find(left, y, taps);
-    const std::size_t first = at(left, y);
-    const std::size_t there =
-        std::min(Reprojection::lanes, static_cast<std::size_t>(width_ - left));
-    for (std::size_t i = 0; i < there; ++i) {
-      const std::size_t pixel = first + i;
-      vfloat8 low(0.0f), high(0.0f);
-      float total = 0.0f, specular_samples = 0.0f, age = 0.0f;
-      if (taps.total[i] > least_share) {
-        for (std::size_t tap = 0; tap < 4; ++tap) {
-          const auto index = static_cast<std::size_t>(taps.pixel[tap][i]);
-          const Shade& from = last_shades_.shade[index];
-          const float w = from.samples() > 0.0f ? taps.weight[tap][i] : 0.0f;
-          total += w;
-          low = madd(vfloat8(w), vfloat8(from.lanes.data()), low);
-          high = madd(vfloat8(w), vfloat8(from.lanes.data() + Reprojection::lanes), high);
-          specular_samples += w * last_shades_.specular_samples[index];
-          age += w * static_cast<float>(last_shades_.age[index]);
-        }
-      }
-      if (!(total > least_share)) {
-        shades_.clear(pixel);
-        continue;
-      }
-      const float scale = 1.0f / total;
-      Shade& shade = shades_.shade[pixel];
-      (low * scale).store(shade.lanes.data());
-      (high * scale).store(shade.lanes.data() + Reprojection::lanes);
-      float& samples = shade.lanes[Shade::samples_lane];
-      samples = std::min(samples, most_samples);
-      shades_.specular_samples[pixel] = std::min(specular_samples * scale, most_specular_samples);
-      shades_.age[pixel] = static_cast<std::uint16_t>(age * scale);
+  reprojection.find(left, y, taps);
+  const std::size_t first = at(left, y);
+  const std::size_t there = std::min(Reprojection::lanes, static_cast<std::size_t>(width_ - left));
+  for (std::size_t i = 0; i < there; ++i) {
+    const std::size_t pixel = first + i;
+    if (taps.total[i] < sure_share && visibility.guessed(pixel)) {
+      doubtful.push_back(static_cast<std::uint32_t>(pixel));
+      continue;
     }
+    vfloat8 low(0.0f), high(0.0f);
+    float total = 0.0f, specular_samples = 0.0f, age = 0.0f;
+    if (taps.total[i] > least_share) {
+      for (std::size_t tap = 0; tap < 4; ++tap) {
+        const auto index = static_cast<std::size_t>(taps.pixel[tap][i]);
+        const Shade& from = last_shades_.shade[index];
+        const float w = from.samples() > 0.0f ? taps.weight[tap][i] : 0.0f;
+        total += w;
+        low = madd(vfloat8(w), vfloat8(from.lanes.data()), low);
+        high = madd(vfloat8(w), vfloat8(from.lanes.data() + Reprojection::lanes), high);
+        specular_samples += w * last_shades_.specular_samples[index];
+        age += w * static_cast<float>(last_shades_.age[index]);
+      }
+    }
+    if (!(total > least_share)) {
+      shades_.clear(pixel);
+      continue;
+    }
+    const float scale = 1.0f / total;
+    Shade& shade = shades_.shade[pixel];
+    (low * scale).store(shade.lanes.data());
+    (high * scale).store(shade.lanes.data() + Reprojection::lanes);
+    float& samples = shade.lanes[Shade::samples_lane];
+    samples = std::min(samples, most_samples);
+    shades_.specular_samples[pixel] = std::min(specular_samples * scale, most_specular_samples);
+    shades_.age[pixel] = static_cast<std::uint16_t>(age * scale);
   }
 }
 
@@ -233,7 +245,8 @@ Color ShadingCache::sum(const Shade& shade, const std::array<float, term_count>&
   return Color(sum[0], sum[1], sum[2]);
 }
 
-void ShadingCache::resolve(std::uint32_t terms, std::vector<Color>& picture) const {
+void ShadingCache::resolve(std::uint32_t terms, const VisibleSurfaces& seen,
+                           std::vector<Color>& picture) const {
   std::array<float, term_count> shown;
   for (std::size_t t = 0; t < term_count; ++t) shown[t] = (terms & (1u << t)) != 0 ? 1.0f : 0.0f;
   picture.resize(shades_.shade.size());
@@ -248,11 +261,7 @@ void ShadingCache::resolve(std::uint32_t terms, std::vector<Color>& picture) con
     }
     if (holes > 0) any_unknown.store(true, std::memory_order_relaxed);
   });
-  if (any_unknown) pull_push(width_, height_, known, seen_, picture);
-}
-
-void ShadingCache::resolve(Term term, std::vector<Color>& layer) const {
-  resolve(1u << static_cast<unsigned>(term), layer);
+  if (any_unknown) pull_push(width_, height_, known, seen, picture);
 }
 
 double ShadingCache::mean_age() const {

@@ -13,6 +13,7 @@
 
 #include "integrator/live_tracer.h"
 #include "integrator/visible_surfaces.h"
+#include "viewer/walk/visibility.h"
 
 namespace lumivec {
 
@@ -20,9 +21,9 @@ class ShadingCache {
  public:
   ShadingCache(int width, int height);
 
-  // A new frame of another view. seen: what the tracer sees there; its contents are exchanged for
-  // the last view's.
-  void see(const LiveTracer& tracer, VisibleSurfaces& seen);
+  // A new frame of another view, which the tracer and `visibility` have just come to see; what is
+  // guessed there is settled.
+  void see(LiveTracer& tracer, Visibility& visibility);
 
   // A new frame of the same view.
   void rest();
@@ -38,9 +39,7 @@ class ShadingCache {
 
   // Radiance of all pixels, cd·m⁻², of those terms (bit i: Term(i)). Pixels without a sample show
   // what neighbours on the same surface do.
-  void resolve(std::uint32_t terms, std::vector<Color>& picture) const;
-  // One term.
-  void resolve(Term term, std::vector<Color>& layer) const;
+  void resolve(std::uint32_t terms, const VisibleSurfaces& seen, std::vector<Color>& picture) const;
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -73,7 +72,8 @@ class ShadingCache {
     std::size_t holes = 0;
   };
 
-  void carry_over_row(const class Reprojection& reprojection, int y);
+  void carry_over(const class Reprojection& reprojection, int left, int y,
+                  const Visibility& visibility, std::vector<std::uint32_t>& doubtful);
   void grow_older(int y);
   float want(std::size_t pixel) const;
   static Color sum(const Shade& shade, const std::array<float, term_count>& shown);
@@ -84,7 +84,6 @@ class ShadingCache {
 
   int width_, height_;
   std::uint32_t frame_ = 0;  // numbers samples
-  VisibleSurfaces seen_, last_seen_;
   Shades shades_, last_shades_;
   std::vector<Row> rows_;
 };

@@ -42,6 +42,7 @@ WalkEngine::WalkEngine(const Scene& scene, const RenderSettings& settings, const
       height_(settings.height),
       mode_(mode),
       tracer_(scene, with_integrator(settings, mode)),
+      visibility_(settings.width, settings.height),
       shading_(settings.width, settings.height),
       sample_seconds_(first_sample_seconds) {}
 
@@ -74,33 +75,38 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   const Clock::time_point start = Clock::now();
   const RenderStatistics before = tracer_.statistics();
   Frame frame;
-  moved_ = !last_ || !same_view(*last_, camera);
+  const bool moved = !last_ || !same_view(*last_, camera);
   last_ = camera;
-  if (moved_) {
+  if (moved) {
     tracer_.set_view(camera, width_, height_);
-    tracer_.see(seen_);
-    pivot_ = tracer_.pivot(seen_);
+    // Nothing is known before the first frame, and guesses end with the movement.
+    frame_ > 0 && mode_.reuse ? visibility_.see_next(tracer_) : visibility_.see_all(tracer_);
+    shading_.see(tracer_, visibility_);
+    pivot_ = tracer_.pivot(visibility_.now());
+  } else {
+    if (moved_) visibility_.see_again(tracer_);
+    shading_.rest();
   }
+  moved_ = moved;
   if (frame_ == 0) frame_time = std::max(frame_time, first_frame_seconds);
   if (mode_.reuse) {
-    moved_ ? shading_.see(tracer_, seen_) : shading_.rest();
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
     tracer_.improve(std::max(0.0, share_of_records * left));
     trace_within(frame_time - seconds_since(start) - fixed_seconds_);
   } else {
-    if (moved_) shading_.see(tracer_, seen_);
     shading_.forget();
     tracer_.improve(share_of_records * frame_time);
     trace_all();
   }
   const Clock::time_point traced = Clock::now();
-  shading_.resolve(terms, picture);
+  shading_.resolve(terms, visibility_.now(), picture);
   const double after = seconds_since(traced);
   fixed_seconds_ += learning * (after - fixed_seconds_);
   frame.seconds = seconds_since(start);
   ++frame_;
 
   frame.traced = samples_.size();
+  frame.rays = moved ? visibility_.ray_count() : 0;
   frame.holes = shading_.hole_count();
   frame.mean_age = shading_.mean_age();
   frame.cache_hits = tracer_.statistics().cache_hits - before.cache_hits;

@@ -26,6 +26,7 @@ class WalkEngine {
   struct Frame {
     double seconds = 0.0;    // to the picture
     std::size_t traced = 0;  // samples
+    std::size_t rays = 0;    // to find out what the eye sees
     std::size_t holes = 0;   // pixels without a sample, filled from neighbours
     double mean_age = 0.0;   // frames since pixels were traced
     std::uint64_t cache_hits = 0, cache_misses = 0;
@@ -37,7 +38,9 @@ class WalkEngine {
                 std::vector<Color>& picture);
 
   // One term of the last frame, without any tracing.
-  void layer(Term term, std::vector<Color>& pixels) const { shading_.resolve(term, pixels); }
+  void layer(Term term, std::vector<Color>& pixels) const {
+    shading_.resolve(1u << static_cast<unsigned>(term), visibility_.now(), pixels);
+  }
 
   // Where the eye looks: the point at the middle of the last frame, world space; the scene's middle
   // if nothing is there.
@@ -52,6 +55,7 @@ class WalkEngine {
   const int width_, height_;
   const WalkMode mode_;
   LiveTracer tracer_;
+  Visibility visibility_;
   ShadingCache shading_;
   std::optional<Camera> last_;
   bool moved_ = false;
@@ -59,7 +63,6 @@ class WalkEngine {
   double sample_seconds_;         // of one sample, as measured
   double fixed_seconds_ = 0.005;  // of what is done once a frame after tracing, as measured
   V3d pivot_{0.0};
-  VisibleSurfaces seen_;
   std::vector<LiveRequest> requests_;
   std::vector<LiveSample> samples_;
 };
