@@ -31,7 +31,24 @@ struct FrameReport {
   ImageError error;  // of the picture
   double flip = 0.0;
   std::array<ImageError, term_count> term_errors;
+  // Mean absolute change of the displayed picture since the frame before, and of the reference's.
+  double change = 0.0, reference_change = 0.0;
 };
+
+// A frame as it is displayed, and what it should be.
+struct Shown {
+  Picture picture{0, 0}, reference{0, 0};
+};
+
+double mean_change(const Picture& from, const Picture& to) {
+  if (from.pixels.size() != to.pixels.size() || to.pixels.empty()) return 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < to.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      sum += std::abs(double(to.pixels[i][c]) - double(from.pixels[i][c]));
+  }
+  return sum / (3.0 * static_cast<double>(to.pixels.size()));
+}
 
 fs::path frame_file(const fs::path& folder, int frame, const char* extension) {
   char name[32];
@@ -116,7 +133,8 @@ class References {
 };
 
 void compare(const LayeredImage& reference, const Picture& picture, const WalkEngine& engine,
-             const WalkOptions& options, const DisplayTransform& display, FrameReport& report) {
+             const WalkOptions& options, const DisplayTransform& display, Shown& last,
+             FrameReport& report) {
   Picture expected(picture.width, picture.height), layer(picture.width, picture.height);
   for (std::size_t t = 0; t < term_count; ++t) {
     const Picture& r = reference.layers.at(std::string(term_names[t]));
@@ -130,6 +148,9 @@ void compare(const LayeredImage& reference, const Picture& picture, const WalkEn
   display.apply(shown, options.exposure);
   display.apply(expected, options.exposure);
   report.flip = mean(flip_map(expected, shown));
+  report.change = mean_change(last.picture, shown);
+  report.reference_change = mean_change(last.reference, expected);
+  last = {std::move(shown), std::move(expected)};
 }
 
 double percentile(std::vector<double> values, double share) {
@@ -138,13 +159,18 @@ double percentile(std::vector<double> values, double share) {
 }
 
 nlohmann::json frame_json(const FrameReport& report, bool compared) {
-  nlohmann::json json = {
-      {"seconds", report.frame.seconds},       {"traced", report.frame.traced},
-      {"filled", report.frame.holes},          {"mean_age", report.frame.mean_age},
-      {"cache_hits", report.frame.cache_hits}, {"cache_misses", report.frame.cache_misses}};
+  nlohmann::json json = {{"seconds", report.frame.seconds},
+                         {"traced", report.frame.traced},
+                         {"rays", report.frame.rays},
+                         {"filled", report.frame.holes},
+                         {"mean_age", report.frame.mean_age},
+                         {"cache_hits", report.frame.cache_hits},
+                         {"cache_misses", report.frame.cache_misses}};
   if (!compared) return json;
   json["relmse"] = report.error.relmse;
   json["flip"] = report.flip;
+  json["change"] = report.change;
+  json["reference_change"] = report.reference_change;
   for (std::size_t t = 0; t < term_count; ++t)
     json["terms"][std::string(term_names[t])] = report.term_errors[t].relmse;
   return json;
@@ -152,12 +178,14 @@ nlohmann::json frame_json(const FrameReport& report, bool compared) {
 
 // Of all frames but the first, which has nothing to go by.
 nlohmann::json summary(const std::vector<FrameReport>& reports, bool compared) {
-  std::vector<double> seconds, relmse, flip, traced;
+  std::vector<double> seconds, relmse, flip, traced, flicker;
   for (std::size_t i = reports.size() > 1 ? 1 : 0; i < reports.size(); ++i) {
     seconds.push_back(reports[i].frame.seconds);
     traced.push_back(static_cast<double>(reports[i].frame.traced));
     relmse.push_back(reports[i].error.relmse);
     flip.push_back(reports[i].flip);
+    if (reports[i].reference_change > 0.0)
+      flicker.push_back(reports[i].change / reports[i].reference_change);
   }
   nlohmann::json json = {{"first_seconds", reports.front().frame.seconds},
                          {"median_seconds", percentile(seconds, 0.5)},
@@ -167,6 +195,10 @@ nlohmann::json summary(const std::vector<FrameReport>& reports, bool compared) {
     json["median_relmse"] = percentile(relmse, 0.5);
     json["median_flip"] = percentile(flip, 0.5);
     json["worst_flip"] = percentile(flip, 1.0);
+    if (!flicker.empty()) {
+      json["median_change_ratio"] = percentile(flicker, 0.5);
+      json["worst_change_ratio"] = percentile(flicker, 1.0);
+    }
   }
   return json;
 }
@@ -221,12 +253,18 @@ int run_walk(const WalkOptions& options) {
   Picture picture(size.width, size.height);
   double exposure = options.exposure;
   std::vector<FrameReport> reports;
+  Shown last_shown;
+  int reference_frame = 0;
   for (int i = 0; i < options.frames && !interrupt.requested(); ++i) {
     const Camera& view = cameras[std::size_t(i)];
     FrameReport report;
     report.frame = engine.advance(view, options.frame_time, options.settings.terms, picture.pixels);
     if (i == 0 && options.automatic_exposure) exposure = automatic_exposure(picture.pixels);
-    if (compared) compare(references.frame(i, view), picture, engine, options, display, report);
+    // A resting eye has one reference.
+    if (i == 0 || !same_view(view, cameras[std::size_t(i) - 1])) reference_frame = i;
+    if (compared)
+      compare(references.frame(reference_frame, view), picture, engine, options, display,
+              last_shown, report);
     if (!options.output.empty()) {
       Picture shown = picture;
       display.apply(shown, exposure);
@@ -261,9 +299,13 @@ int run_walk(const WalkOptions& options) {
         1e3 * double(figures["median_seconds"]), 1e3 * double(figures["99th_percentile_seconds"]),
         double(figures["median_traced"]));
     if (compared) {
-      std::printf("median relMSE %.4g, median FLIP %.4f, worst %.4f\n",
+      std::printf("median relMSE %.4g, median FLIP %.4f, worst %.4f, last relMSE %.4g\n",
                   double(figures["median_relmse"]), double(figures["median_flip"]),
-                  double(figures["worst_flip"]));
+                  double(figures["worst_flip"]), reports.back().error.relmse);
+      if (figures.contains("median_change_ratio")) {
+        std::printf("change between frames against the reference's: median %.2f, worst %.2f\n",
+                    double(figures["median_change_ratio"]), double(figures["worst_change_ratio"]));
+      }
     }
     std::fflush(stdout);
   }

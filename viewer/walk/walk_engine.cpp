@@ -30,12 +30,12 @@ RenderSettings with_integrator(RenderSettings settings, const WalkMode& mode) {
   return settings;
 }
 
+}  // namespace
+
 bool same_view(const Camera& a, const Camera& b) {
   return a.camera_to_world == b.camera_to_world && a.kind == b.kind && a.yfov == b.yfov &&
          a.xmag == b.xmag && a.ymag == b.ymag && a.znear == b.znear && a.zfar == b.zfar;
 }
-
-}  // namespace
 
 WalkEngine::WalkEngine(const Scene& scene, const RenderSettings& settings, const WalkMode& mode)
     : width_(settings.width),

@@ -18,6 +18,9 @@ struct WalkMode {
   bool light_vectors = true;
 };
 
+// Whether two cameras see the same.
+bool same_view(const Camera& a, const Camera& b);
+
 class WalkEngine {
  public:
   // scene must outlive this. settings: as LiveTracer's, with width and height. Throws RenderError.
