@@ -1,8 +1,11 @@
 #include "integrator/cache_builder.h"
 
+#include <ImathBoxAlgo.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "integrator/bsdf_color.h"
@@ -43,6 +46,8 @@ constexpr float gap_weight = 0.15f;
 constexpr float gather_spread = 0.0125f;
 // Below so many records paths are traced to their own ends: the cache has seen too little.
 constexpr std::uint32_t fewest_to_end_in = 512;
+// Records that a change has outdated and that are made anew before others are added.
+constexpr std::size_t renewed_first = 32;
 // Records that are made at a time when time is short.
 constexpr std::size_t hurried_batch_size = 8;
 
@@ -50,6 +55,20 @@ constexpr std::size_t hurried_batch_size = 8;
 // brightness, but for so many.
 constexpr double most_trial_noise = 0.1;
 constexpr double most_noisy_share = 0.25;
+
+// Light stays where it was; the record is to be made anew.
+void move(const Imath::M44f& motion, IrradianceRecord& record, RecordRequest& place) {
+  const auto turned = [&](const V3f& v) {
+    V3f to;
+    motion.multDirMatrix(v, to);
+    return to.normalized();
+  };
+  place.point.position = record.position = record.position * motion;
+  place.point.normal = turned(place.point.normal);
+  place.point.geometric_normal = turned(place.point.geometric_normal);
+  record.normal = turned(record.normal);
+  record.axis = turned(record.axis);
+}
 
 float brightness(const IrradianceRecord& r) {
   return mean(r.light.irradiance(r.normal));
@@ -223,14 +242,86 @@ bool CacheBuilder::extend(const std::vector<Tile>& tiles, int stride, int phase,
                           const std::function<bool()>& go_on, RenderStatistics& statistics) {
   batch_size_ = hurried_batch_size;
   slack_ = slack;
+  renew(renewed_first, go_on, statistics);
   std::vector<RecordRequest> requests = collect(tiles, stride, phase, wanted_weight, statistics);
-  const bool all = make_records(requests, wanted_weight, go_on, statistics);
+  bool all = make_records(requests, wanted_weight, go_on, statistics);
+  renew(outdated_.size(), go_on, statistics);
+  all = all && outdated_.empty();
   slack_ = 1.0f;
   if (cache_.size() >= committed_ + committed_ / 8 + 1 || (all && cache_.size() != committed_)) {
     cache_.commit(budget_);
     committed_ = cache_.size();
   }
   return all && (slack > 1.0f || refine(go_on, statistics));
+}
+
+void CacheBuilder::change(const std::vector<MovedPart>& parts) {
+  std::vector<const MovedPart*> part_of;  // by instance
+  for (const MovedPart& part : parts) {
+    part_of.resize(std::max(part_of.size(), static_cast<std::size_t>(part.instance) + 1), nullptr);
+    part_of[static_cast<std::size_t>(part.instance)] = &part;
+  }
+  std::vector<IrradianceRecord> kept;
+  std::vector<RecordRequest> kept_places;
+  bool moved = false;
+  for (std::uint32_t i = 0; i < places_.size(); ++i) {
+    const auto instance = static_cast<std::size_t>(places_[i].point.instance);
+    const MovedPart* part = instance < part_of.size() ? part_of[instance] : nullptr;
+    moved = moved || part;
+    if (part && !part->motion) continue;
+    kept.push_back(cache_.record(i));
+    kept_places.push_back(places_[i]);
+    if (part) move(*part->motion, kept.back(), kept_places.back());
+  }
+  if (moved) {
+    cache_.clear();
+    for (const IrradianceRecord& r : kept) cache_.insert(r);
+    places_ = std::move(kept_places);
+    cache_.rebuild();
+    committed_ = cache_.size();
+  }
+  // Nearest to a part last, as they are taken from the end.
+  std::vector<float> distance2(places_.size(), std::numeric_limits<float>::max());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const V3f& p = places_[i].point.position;
+    for (const MovedPart& part : parts) {
+      for (const Imath::Box3f& box : part.bounds) {
+        if (!box.isEmpty())
+          distance2[i] = std::min(distance2[i], (Imath::clip(p, box) - p).length2());
+      }
+    }
+  }
+  outdated_.resize(places_.size());
+  for (std::uint32_t i = 0; i < outdated_.size(); ++i) outdated_[i] = i;
+  std::stable_sort(outdated_.begin(), outdated_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return distance2[a] > distance2[b]; });
+  for (const std::uint32_t i : outdated_) cache_.edit(i).passes = 0;
+}
+
+void CacheBuilder::renew(std::size_t most, const std::function<bool()>& go_on,
+                         RenderStatistics& statistics) {
+  if (outdated_.empty()) return;
+  std::vector<IrradianceRecord> made(batch_size_);
+  std::mutex mutex;
+  for (std::size_t done = 0; done < most && !outdated_.empty() && go_on();) {
+    const std::size_t count = std::min(batch_size_, outdated_.size());
+    for_each(count, [&](std::size_t k) {
+      const std::uint32_t i = outdated_[outdated_.size() - 1 - k];
+      RenderStatistics counts;
+      // The same random numbers as before: what has not changed does not flicker.
+      made[k] = gather_->make(places_[i], first_cells, record_seed(i, 0), counts, path_ends());
+      made[k].least_reach = cache_.record(i).least_reach;
+      made[k].passes = 0;
+      const std::lock_guard lock(mutex);
+      statistics.add_counts(counts);
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      cache_.edit(outdated_.back()) = made[k];
+      outdated_.pop_back();
+    }
+    done += count;
+  }
+  cache_.rebuild();
 }
 
 bool CacheBuilder::try_out(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,

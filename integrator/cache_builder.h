@@ -4,6 +4,11 @@
 // sees those before it alone, so that the threads do not show.
 #pragma once
 
+#include <ImathBox.h>
+#include <ImathMatrix.h>
+
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -13,6 +18,13 @@
 #include "integrator/path_tracer.h"
 
 namespace lumivec {
+
+// An instance that has moved or has been deformed.
+struct MovedPart {
+  int instance = -1;                   // index into Scene::instances
+  std::optional<Imath::M44f> motion;   // of its points, traced space; none: they are other ones
+  std::array<Imath::Box3f, 2> bounds;  // before and after, traced space; empty: not there
+};
 
 class CacheBuilder {
  public:
@@ -49,6 +61,11 @@ class CacheBuilder {
   bool extend(const std::vector<Tile>& tiles, int stride, int phase, float slack,
               const std::function<bool()>& go_on, RenderStatistics& statistics);
 
+  // The scene has changed, and these parts of it have moved. Records on them move along or are
+  // dropped; all are made anew by extend(), those near the parts first. Not while others use the
+  // cache.
+  void change(const std::vector<MovedPart>& parts);
+
   // How pixels use the cache.
   CacheUse use() const;
 
@@ -58,6 +75,8 @@ class CacheBuilder {
   // Averages hemispheres, whose paths end in the cache, into records until each has enough. The
   // first replaces what whole paths brought.
   bool refine(const std::function<bool()>& go_on, RenderStatistics& statistics);
+  // Makes outdated records anew, at most so many.
+  void renew(std::size_t most, const std::function<bool()>& go_on, RenderStatistics& statistics);
   std::uint32_t record_seed(std::uint32_t record, std::uint32_t round) const;
   // Where paths that gather light may end.
   CacheUse path_ends() const;
@@ -81,7 +100,8 @@ class CacheBuilder {
   std::size_t batch_size_ = 64;  // records that are made at a time, without knowing of each other
   std::uint32_t committed_ = 0;  // records at the last commit, of extend() alone
   std::optional<HemisphereGather> gather_;
-  std::vector<RecordRequest> places_;  // of the records, to refine them
+  std::vector<RecordRequest> places_;    // of the records, to refine them
+  std::vector<std::uint32_t> outdated_;  // records; the next to be made anew is the last one
 };
 
 }  // namespace lumivec

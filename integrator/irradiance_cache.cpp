@@ -149,6 +149,11 @@ bool IrradianceCache::look_up(const CachePoint& point, float budget, float neede
   return true;
 }
 
+void IrradianceCache::clear() {
+  tree_.clear();
+  records_.clear();
+}
+
 void IrradianceCache::rebuild() {
   tree_.rebuild([&](std::uint32_t i) { return reach(records_[i]); });
 }

@@ -29,6 +29,7 @@ struct CachePoint {
   V3f normal{0.0f};            // unit, interpolated, before normal maps
   float error = 0.0f;          // as in SurfacePoint
   float footprint = 0.0f;      // size of a pixel there, scene units; 0: none
+  int instance = -1;           // index into Scene::instances
 };
 
 struct CachedLight {
@@ -64,6 +65,8 @@ class IrradianceCache {
   void commit(float budget);
   // Likewise without the bounds.
   void rebuild();
+  // Forgets all records; not while others use the cache.
+  void clear();
 
  private:
   float weight(const IrradianceRecord& record, const CachePoint& point, float scale) const;

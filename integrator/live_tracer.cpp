@@ -44,6 +44,8 @@ constexpr std::array<float, 2> meanwhile_slacks = {16.0f, 4096.0f};
 // Light paths of a photon map.
 constexpr std::uint64_t map_paths = 1 << 16;
 constexpr std::uint32_t map_batch = 4096;
+// Likewise while the scene changes.
+constexpr std::uint64_t hurried_map_paths = map_paths / 4;
 
 }  // namespace
 
@@ -51,21 +53,33 @@ struct LiveTracer::State {
   State(const Scene& scene, const RenderSettings& s)
       : settings(s),
         arena(s.threads > 0 ? s.threads : tbb::this_task_arena::max_concurrency()),
-        traced(scene, arena.max_concurrency()),
-        lights(traced),
-        casters(caustic_casters(traced, s.specular_roughness)),
-        cache(traced, s.validity_parts, s.cache_bytes),
-        photons(traced) {
-    if (cached() && !casters.empty()) lights.leave_caustics_to_light_paths(true);
+        traced(std::in_place, scene, arena.max_concurrency()),
+        lights(std::in_place, *traced),
+        cache(*traced, s.validity_parts, s.cache_bytes),
+        photons(*traced) {
+    find_casters();
+    keep_transforms();
+  }
+
+  void keep_transforms() {
+    object_to_traced.clear();
+    for (std::size_t i = 0; i < traced->instances().size(); ++i)
+      object_to_traced.push_back(traced->object_to_traced(static_cast<int>(i)));
+  }
+
+  void find_casters() {
+    casters = caustic_casters(*traced, settings.specular_roughness);
+    if (cached() && !casters.empty()) lights->leave_caustics_to_light_paths(true);
   }
 
   bool cached() const { return settings.integrator == Integrator::light_vectors; }
 
   // Photons are where light falls, whatever the eye sees.
-  void map_photons() {
-    const LightTracer light_tracer(traced, lights, *view, settings, casters);
-    if (!light_tracer.active()) return;
-    std::vector<std::vector<Photon>> batches(map_paths / map_batch);
+  void map_photons(std::uint64_t paths) {
+    const LightTracer light_tracer(*traced, *lights, *view, settings, casters);
+    has_photons = light_tracer.active();
+    if (!has_photons) return;
+    std::vector<std::vector<Photon>> batches(paths / map_batch);
     for_each(batches.size(), [&](std::size_t i) {
       RenderStatistics counts;
       light_tracer.trace(i * map_batch, map_batch, batches[i], counts);
@@ -73,8 +87,7 @@ struct LiveTracer::State {
     std::vector<Photon> all;
     for (const std::vector<Photon>& some : batches) all.insert(all.end(), some.begin(), some.end());
     statistics.photons += all.size();
-    photons.build(std::move(all), map_paths, 0);
-    has_photons = true;
+    photons.build(std::move(all), paths, 0);
   }
 
   // Up to a packet of pixels.
@@ -94,9 +107,9 @@ struct LiveTracer::State {
               direction[i], rays.near, rays.far);
     }
     set_valid(packet.ray, static_cast<int>(count), valid);
-    TraceQuery query = traced.query();
+    TraceQuery query = traced->query();
     query.seeds = seeds;
-    embree::intersect8_coherent(valid, traced.handle(), query.context, packet);
+    embree::intersect8_coherent(valid, traced->handle(), query.context, packet);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t pixel = pixels[i];
       const RTCHit8& h = packet.hit;
@@ -108,11 +121,11 @@ struct LiveTracer::State {
       V3f normal(0.0f);
       if (hit.valid()) {
         depth = hit.distance;
-        object = traced.instance_of(hit);
-        normal = traced.outward_normal(object, V3f(h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]));
+        object = traced->instance_of(hit);
+        normal = traced->outward_normal(object, V3f(h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]));
         if (normal.dot(along) > 0.0f) {
           normal = -normal;
-          if (culled(*traced.instances()[std::size_t(object)].material, false))
+          if (culled(*traced->instances()[std::size_t(object)].material, false))
             look_past(hit, rays, V3f(packet.ray.org_x[i], packet.ray.org_y[i], packet.ray.org_z[i]),
                       along, depth, normal, object);
         }
@@ -128,14 +141,14 @@ struct LiveTracer::State {
   void look_past(RayHit hit, const PictureRays& rays, const V3f& origin, const V3f& direction,
                  float& depth, V3f& normal, int& object) const {
     while (hit.valid()) {
-      const SurfacePoint p = traced.surface(hit, origin, direction);
+      const SurfacePoint p = traced->surface(hit, origin, direction);
       if (!culled(p)) {
         depth = hit.distance;
         normal = p.geometric_normal;
         object = p.instance;
         return;
       }
-      hit = traced.intersect(origin, direction, next_distance(hit.distance, p.error), rays.far, 0);
+      hit = traced->intersect(origin, direction, next_distance(hit.distance, p.error), rays.far, 0);
     }
     depth = VisibleSurfaces::nothing;
     object = -1;
@@ -143,19 +156,24 @@ struct LiveTracer::State {
 
   RenderSettings settings;
   tbb::task_arena arena;
-  const TracedScene traced;
-  Lights lights;
-  const std::vector<BoundingSphere> casters;
+  // Made anew in place when the scene changes: what knows them by where they are need not know.
+  std::optional<TracedScene> traced;
+  std::optional<Lights> lights;
+  std::vector<BoundingSphere> casters;
+  std::vector<M44d> object_to_traced;  // of all instances
   IrradianceCache cache;
   PhotonMap photons;
   bool has_photons = false;
+  std::uint64_t outdated_photons = 0;  // light paths to map before the next frame
   std::optional<CameraView> view, last_view;
   std::optional<PathTracer> tracer;  // of that view
   std::optional<CacheBuilder> builder;
   std::vector<Tile> tiles;
   int tiles_across = 0;
   int phase = 0;
-  std::size_t level = 0;  // of slacks, that records are made for
+  std::size_t level = 0;      // of slacks, that records are made for
+  std::uint32_t settled = 0;  // records when last all were there and as good as they should be
+  unsigned generation = 0;
   RenderStatistics statistics;
   std::mutex mutex;  // of the statistics
 };
@@ -170,9 +188,9 @@ void LiveTracer::set_view(const Camera& camera, int width, int height) {
   s.last_view = s.view;
   s.settings.width = width;
   s.settings.height = height;
-  s.view.emplace(camera, s.traced, width, height);
+  s.view.emplace(camera, *s.traced, width, height);
   if (!s.last_view) s.last_view = s.view;
-  s.tracer.emplace(s.traced, s.lights, *s.view, s.settings);
+  s.tracer.emplace(*s.traced, *s.lights, *s.view, s.settings);
   s.tiles.clear();
   s.tiles_across = (width + tile_side - 1) / tile_side;
   for (int y = 0; y < height; y += tile_side) {
@@ -181,10 +199,45 @@ void LiveTracer::set_view(const Camera& camera, int width, int height) {
   }
   if (s.cached() && !s.builder) {
     // It knows the tracer by where it is, which stays the same.
-    s.builder.emplace(*s.tracer, s.traced, s.settings, s.cache);
-    s.arena.execute([&] { s.map_photons(); });
-    if (s.has_photons) s.builder->set_photons(&s.photons);
+    s.builder.emplace(*s.tracer, *s.traced, s.settings, s.cache);
+    s.outdated_photons = map_paths;
   }
+  if (s.builder && s.outdated_photons > 0) {
+    s.arena.execute([&] { s.map_photons(s.outdated_photons); });
+    s.builder->set_photons(s.has_photons ? &s.photons : nullptr);
+    s.outdated_photons = 0;
+  }
+}
+
+void LiveTracer::update(const SceneChanges& changes) {
+  State& s = *state_;
+  const Scene& scene = s.traced->scene();
+  const TracedScene::Frame frame = s.traced->frame();
+  const auto bounds_of = [&](int i) { return s.traced->bounds()[static_cast<std::size_t>(i)]; };
+  std::vector<MovedPart> parts;
+  std::vector<M44d> before;
+  for (const std::vector<int>* some : {&changes.moved, &changes.deformed}) {
+    for (const int i : *some) {
+      parts.push_back({i, std::nullopt, {bounds_of(i), Imath::Box3f()}});
+      before.push_back(s.object_to_traced[static_cast<std::size_t>(i)]);
+    }
+  }
+  s.lights.reset();
+  s.arena.execute([&] { s.traced.emplace(scene, s.arena.max_concurrency(), &frame); });
+  s.lights.emplace(*s.traced);
+  s.find_casters();
+  s.keep_transforms();
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    MovedPart& part = parts[k];
+    part.bounds[1] = bounds_of(part.instance);
+    if (k < changes.moved.size() && !part.bounds[1].isEmpty()) {
+      part.motion = Imath::M44f(before[k].inverse() *
+                                s.object_to_traced[static_cast<std::size_t>(part.instance)]);
+    }
+  }
+  if (s.builder) s.builder->change(parts);
+  s.outdated_photons = hurried_map_paths;
+  ++s.generation;
 }
 
 void LiveTracer::see(VisibleSurfaces& seen) {
@@ -295,15 +348,26 @@ bool LiveTracer::improve(double seconds) {
     // What the eye comes to see later is made at the finest level at once.
     const bool enough = s.cache.size() - before <= before / 32;
     if (!all || s.level + 1 == slacks.size()) break;
-    if (enough) ++s.level;
+    if (enough) {
+      ++s.level;
+      ++s.generation;
+    }
+  }
+  if (all && s.cache.size() > s.settled + s.settled / 16) {
+    s.settled = s.cache.size();
+    ++s.generation;
   }
   s.statistics.records = s.cache.size();
   s.statistics.cache_bytes = s.cache.bytes() + s.photons.bytes();
   return all;
 }
 
+unsigned LiveTracer::generation() const {
+  return state_->generation;
+}
+
 const V3d& LiveTracer::origin() const {
-  return state_->traced.origin();
+  return state_->traced->origin();
 }
 
 const RenderStatistics& LiveTracer::statistics() const {

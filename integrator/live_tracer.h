@@ -27,12 +27,28 @@ struct LiveRequest {
   std::uint32_t sample = 0;
 };
 
+// What has been changed in a scene that is being traced; nothing else has. Neither the number of
+// instances nor that of materials may change.
+struct SceneChanges {
+  std::vector<int> moved;     // instances: their transforms, or whether they are visible
+  std::vector<int> deformed;  // instances whose meshes are; no instance is in both lists
+  // Values of materials, lights or the environment.
+  bool light = false;
+
+  bool empty() const { return moved.empty() && deformed.empty() && !light; }
+};
+
 class LiveTracer {
  public:
   // scene must outlive this. Of the settings: integrator, validity parts, cache_error, terms, seed,
   // specular_roughness, max_depth, filter, threads. Throws RenderError.
   LiveTracer(const Scene& scene, const RenderSettings& settings);
   ~LiveTracer();
+
+  // The scene has been changed; set_view() must be called before anything else. Costs as much as
+  // preparing the scene for tracing does. Cached light that is outdated is made anew by improve(),
+  // what is near first. Throws RenderError.
+  void update(const SceneChanges& changes);
 
   // The camera that the next calls are about, and the picture's size, pixels.
   void set_view(const Camera& camera, int width, int height);
@@ -58,6 +74,10 @@ class LiveTracer {
   // Makes cached light that the view lacks for at most so long; light-vectors alone. False: time
   // was too short for all of it.
   bool improve(double seconds);
+
+  // Another number whenever cached light has become better as a whole, so that samples taken before
+  // are worth less.
+  unsigned generation() const;
 
   const V3d& origin() const;  // world space
   const RenderStatistics& statistics() const;

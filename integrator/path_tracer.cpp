@@ -672,6 +672,7 @@ class PathStream {
     at.normal = point.normal;
     at.error = point.error;
     at.footprint = footprint(lane);
+    at.instance = point.instance;
     if (cache_.paper)
       return use_paper_cache(lane, {at, -lane.direction, parameters, lane.media}, bsdf);
     CachedLight light;

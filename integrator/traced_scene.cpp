@@ -101,7 +101,7 @@ void note_error(void* user, RTCError, const char* message) {
 
 }  // namespace
 
-TracedScene::TracedScene(const Scene& scene, int threads) : scene_(scene) {
+TracedScene::TracedScene(const Scene& scene, int threads, const Frame* frame) : scene_(scene) {
   std::string failure;
   device_.reset(
       rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : nullptr));
@@ -110,12 +110,15 @@ TracedScene::TracedScene(const Scene& scene, int threads) : scene_(scene) {
   top_.reset(rtcNewScene(device_.get()));
   rtcSetSceneFlags(top_.get(), scene_flags(scene));
 
-  std::vector<float> indices;
-  for (const Material& material : scene.materials) indices.push_back(material.ior);
-  indices.push_back(default_material().ior);
-  albedo_tables_ = std::make_unique<AlbedoTables>(indices);
+  for (const Material& material : scene.materials) indices_.push_back(material.ior);
+  indices_.push_back(default_material().ior);
+  if (frame && frame->indices == indices_) {
+    albedo_tables_ = frame->albedo_tables;
+  } else {
+    albedo_tables_ = std::make_shared<AlbedoTables>(indices_);
+  }
 
-  place();
+  place(frame);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const int instance = static_cast<int>(i);
     if (!scene.instances[i].visible) continue;
@@ -135,12 +138,14 @@ TracedScene::TracedScene(const Scene& scene, int threads) : scene_(scene) {
   }
 }
 
-// Finds the origin of traced space, and counts how often each mesh is used.
-void TracedScene::place() {
+// Finds the origin of traced space if it is not given, and counts how often each mesh is used.
+void TracedScene::place(const Frame* frame) {
   uses_.assign(scene_.meshes.size(), 0);
   std::vector<Bounds> mesh_bounds(scene_.meshes.size());
+  std::vector<Bounds> around(scene_.instances.size());
   Bounds world;
-  for (const Instance& instance : scene_.instances) {
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const Instance& instance = scene_.instances[i];
     if (!instance.visible) continue;
     Bounds object;
     if (instance.mesh >= 0) {
@@ -155,13 +160,22 @@ void TracedScene::place() {
       const V3d p((corner & 1) ? object.max.x : object.min.x,
                   (corner & 2) ? object.max.y : object.min.y,
                   (corner & 4) ? object.max.z : object.min.z);
-      world.extend(p * instance.object_to_world);
+      around[i].extend(p * instance.object_to_world);
     }
+    world.extend(around[i].min);
+    world.extend(around[i].max);
   }
-  if (!world.empty()) {
+  if (frame) {
+    origin_ = frame->origin;
+    radius_ = frame->radius;
+  } else if (!world.empty()) {
     origin_ = (world.min + world.max) * 0.5;
     radius_ = std::max(static_cast<float>((world.max - origin_).length()),
                        std::numeric_limits<float>::min());
+  }
+  for (const Bounds& b : around) {
+    bounds_.emplace_back();
+    if (!b.empty()) bounds_.back() = Imath::Box3f(V3f(b.min - origin_), V3f(b.max - origin_));
   }
   base_meshes_.resize(scene_.meshes.size());
   base_vertices_.resize(scene_.meshes.size(), nullptr);

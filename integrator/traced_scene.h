@@ -7,6 +7,8 @@
 // construction; all queries may run at once from many threads.
 #pragma once
 
+#include <ImathBox.h>
+
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -59,8 +61,17 @@ struct TracedSphere {
 
 class TracedScene {
  public:
+  // What the next state of a scene that changes takes over, so that places in traced space stay
+  // what they are.
+  struct Frame {
+    V3d origin{0.0};
+    float radius = 1.0f;
+    std::vector<float> indices;  // of refraction, of all materials
+    std::shared_ptr<const AlbedoTables> albedo_tables;
+  };
+
   // threads: for building. Throws RenderError if Embree refuses the scene (memory).
-  TracedScene(const Scene& scene, int threads);
+  TracedScene(const Scene& scene, int threads, const Frame* frame = nullptr);
   TracedScene(const TracedScene&) = delete;
   TracedScene& operator=(const TracedScene&) = delete;
 
@@ -69,6 +80,9 @@ class TracedScene {
   float radius() const {
     return radius_;
   }  // of a sphere around traced space's origin that holds the scene
+  Frame frame() const { return {origin_, radius_, indices_, albedo_tables_}; }
+  // Around each instance, traced space; empty for those that are not visible.
+  const std::vector<Imath::Box3f>& bounds() const { return bounds_; }
   RTCScene handle() const { return top_.get(); }
   // Whether anything has partial opacity or thin walls, so that queries need seeds.
   bool has_filters() const { return has_filters_; }
@@ -134,7 +148,7 @@ class TracedScene {
 
   SurfaceParameters appearance(const SurfacePoint& point) const;
   void prepare_constants();
-  void place();
+  void place(const Frame* frame);
   void add_mesh(int instance);
   void add_sphere(int instance);
   void add_instance(int instance, RTCScene base);
@@ -166,7 +180,9 @@ class TracedScene {
   std::vector<const V3f*> base_vertices_;         // likewise
   std::vector<std::uint32_t> uses_;               // of each mesh
   embree::SceneHandle base_sphere_;               // unit sphere at the origin, for ellipsoids
-  std::unique_ptr<AlbedoTables> albedo_tables_;   // for the indices of refraction of all materials
+  std::vector<Imath::Box3f> bounds_;
+  std::vector<float> indices_;  // of refraction, of all materials
+  std::shared_ptr<const AlbedoTables> albedo_tables_;
 };
 
 }  // namespace lumivec

@@ -62,17 +62,19 @@ Scene load_lit_scene(const std::filesystem::path& file, const LoadOptions& optio
   return scene;
 }
 
-void pose(Scene& scene, const PoseChoice& choice) {
-  if (!choice.seconds) return;
+std::size_t choose_animation(const Scene& scene, const std::string& option,
+                             const std::string& wanted) {
   if (scene.animations.empty())
-    throw UsageError("--at: the scene holds no animation; leave it out");
+    throw UsageError(option + ": the scene holds no animation; leave it out");
+  if (wanted.empty()) return 0;
   std::vector<std::string> names;
   for (const Animation& animation : scene.animations) names.push_back(animation.name);
-  const int which =
-      choice.animation.empty()
-          ? 0
-          : find_by_name_or_index("--animation", choice.animation, names, "animation");
-  pose_scene(scene, std::size_t(which), *choice.seconds);
+  return std::size_t(find_by_name_or_index("--animation", wanted, names, "animation"));
+}
+
+void pose(Scene& scene, const PoseChoice& choice) {
+  if (!choice.seconds) return;
+  pose_scene(scene, choose_animation(scene, "--at", choice.animation), *choice.seconds);
 }
 
 const Camera& choose_camera(const Scene& scene, const std::string& wanted) {

@@ -27,6 +27,10 @@ struct PoseChoice {
   std::optional<double> seconds;  // none: the file's rest pose
 };
 
+// wanted: a name or an index; empty: the first. option: that asks for one. Throws UsageError.
+std::size_t choose_animation(const Scene& scene, const std::string& option,
+                             const std::string& wanted);
+
 // Throws UsageError.
 void pose(Scene& scene, const PoseChoice& choice);
 

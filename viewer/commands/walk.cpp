@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "integrator/render.h"
+#include "loader/animate.h"
 #include "viewer/atomic_file.h"
 #include "viewer/errors.h"
 #include "viewer/exposure.h"
@@ -76,6 +79,8 @@ nlohmann::json identity(const WalkOptions& options, const std::vector<Camera>& c
   }
   return {{"scene", fs::weakly_canonical(options.scene_file).string()},
           {"frames", options.frames},
+          {"animation", options.animation.value_or("")},
+          {"frames_per_second", options.frames_per_second},
           {"size", {width, height}},
           {"environment", options.environment.name.string()},
           {"views", views}};
@@ -203,6 +208,24 @@ nlohmann::json summary(const std::vector<FrameReport>& reports, bool compared) {
   return json;
 }
 
+// Of an animation that is played again and again.
+double moment(const Animation& animation, double seconds) {
+  const double length = animation_length(animation);
+  return length > 0.0 ? std::fmod(seconds, length) : 0.0;
+}
+
+SceneChanges scene_changes(const Scene& scene, const PoseChanges& posed) {
+  SceneChanges changes;
+  changes.light = !posed.lights.empty();
+  for (std::size_t i = 0; i < scene.instances.size() && !posed.meshes.empty(); ++i) {
+    if (std::binary_search(posed.meshes.begin(), posed.meshes.end(), scene.instances[i].mesh))
+      changes.deformed.push_back(static_cast<int>(i));
+  }
+  std::set_difference(posed.instances.begin(), posed.instances.end(), changes.deformed.begin(),
+                      changes.deformed.end(), std::back_inserter(changes.moved));
+  return changes;
+}
+
 }  // namespace
 
 int run_walk(const WalkOptions& options) {
@@ -216,17 +239,23 @@ int run_walk(const WalkOptions& options) {
   if (!options.statistics.empty()) check_writable(options.statistics);
   if (!options.output.empty()) make_folder(options.output);
   const DisplayTransform display(options.display);
-  const Scene scene = load_lit_scene(options.scene_file, options.load, options.environment,
-                                     [&](const std::string& warning) {
-                                       warnings.push_back(warning);
-                                       if (!options.quiet)
-                                         std::cerr << "lumivec: warning: " << warning << '\n';
-                                     });
-  const Camera& camera = choose_camera(scene, options.camera);
+  Scene scene = load_lit_scene(options.scene_file, options.load, options.environment,
+                               [&](const std::string& warning) {
+                                 warnings.push_back(warning);
+                                 if (!options.quiet)
+                                   std::cerr << "lumivec: warning: " << warning << '\n';
+                               });
+  const Camera camera = choose_camera(scene, options.camera);
   RenderSettings settings = options.settings;
   const PictureSize size = options.size ? *options.size : size_for(camera);
   settings.width = size.width;
   settings.height = size.height;
+
+  std::optional<std::size_t> animation;
+  if (options.animation) {
+    animation = choose_animation(scene, "--animation", *options.animation);
+    pose_scene(scene, *animation, 0.0);
+  }
 
   // What the eye looks at first is what an orbit goes around.
   V3d pivot;
@@ -258,10 +287,21 @@ int run_walk(const WalkOptions& options) {
   for (int i = 0; i < options.frames && !interrupt.requested(); ++i) {
     const Camera& view = cameras[std::size_t(i)];
     FrameReport report;
-    report.frame = engine.advance(view, options.frame_time, options.settings.terms, picture.pixels);
+    double update_seconds = 0.0;
+    if (animation && i > 0) {
+      const PoseChanges posed = pose_scene(
+          scene, *animation, moment(scene.animations[*animation], i / options.frames_per_second));
+      const auto start = std::chrono::steady_clock::now();
+      engine.update(scene_changes(scene, posed));
+      update_seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    report.frame = engine.advance(view, std::max(options.frame_time - update_seconds, 0.0),
+                                  options.settings.terms, picture.pixels);
+    report.frame.seconds += update_seconds;
     if (i == 0 && options.automatic_exposure) exposure = automatic_exposure(picture.pixels);
     // A resting eye has one reference.
-    if (i == 0 || !same_view(view, cameras[std::size_t(i) - 1])) reference_frame = i;
+    if (i == 0 || animation || !same_view(view, cameras[std::size_t(i) - 1])) reference_frame = i;
     if (compared)
       compare(references.frame(reference_frame, view), picture, engine, options, display,
               last_shown, report);

@@ -26,6 +26,9 @@ struct WalkOptions {
   std::optional<PictureSize> size;
   CameraPathChoice path;
   int frames = 60;
+  std::optional<std::string>
+      animation;                    // that is played: name or index; none: the file's rest pose
+  double frames_per_second = 30.0;  // of that
   std::string mode = "rc+lv";
   WalkMode walk_mode;
   double frame_time = 0.033;        // seconds

@@ -22,6 +22,16 @@ void add_walk_group(CLI::App& app, WalkOptions& options) {
                      options.frames = int(parse_whole("--frames", text, 1, most));
                    })
       ->group(group);
+  add_value_option(app, "--animation", "NAME|INDEX",
+                   "Plays an animation of the scene from its beginning, again and again",
+                   [&options](const std::string& text) { options.animation = text; })
+      ->group(group);
+  add_value_option(app, "--fps", "N", "Frames in a second of the animation [30]",
+                   [&options](const std::string& text) {
+                     constexpr double most = 1e4;
+                     options.frames_per_second = parse_number("--fps", text, 1e-3, most);
+                   })
+      ->group(group);
   add_value_option(app, "--mode", "NAME",
                    "path or lv: every pixel of every frame anew, by path tracing or light vectors; "
                    "rc or rc+lv: with the shading of earlier frames [rc+lv]",

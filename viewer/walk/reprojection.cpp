@@ -14,6 +14,9 @@ using OIIO::simd::vint8;
 // Two points are of one surface if the other lies in the tangent plane up to this many pixels.
 constexpr float most_off_plane = 2.0f;
 
+// Where nothing is, the background is seen: so far away that the eye's place does not matter.
+constexpr float background_depth = 1e12f;
+
 struct Vectors {
   vfloat8 x, y, z;
 };
@@ -77,8 +80,8 @@ void Reprojection::find(int left, int y, Taps& taps) const {
     packed = gather(reinterpret_cast<const std::int32_t*>(seen_.normal.data()), pixel);
     depth = gather(seen_.depth.data(), pixel);
   }
-  const vbool8 something = object >= vint8(0);
-  depth = select(something, depth, vfloat8(1.0f));
+  const vbool8 nothing = object < vint8(0);
+  depth = select(nothing, vfloat8(background_depth), depth);
 
   // Seen from where the other eye is.
   const float row = static_cast<float>(y) + 0.5f;
@@ -107,7 +110,7 @@ void Reprojection::find(int left, int y, Taps& taps) const {
   const vfloat8 u0 = floor(u), v0 = floor(v);
   const vfloat8 ax = u - u0, ay = v - v0;
   const vint8 x0(u0), y0(v0);
-  const vbool8 usable = something & (z > vfloat8(rays_then_.near));
+  const vbool8 usable = z > vfloat8(rays_then_.near);
 
   const PictureRays& then = rays_then_;
   const V3f origin = then.origin - plane.eye;
@@ -139,8 +142,9 @@ void Reprojection::find(int left, int y, Taps& taps) const {
                         off_plane(n.z, origin.z, then.origin_x.z, then.origin_y.z, then.direction.z,
                                   then.direction_x.z, then.direction_y.z) -
                         on_plane;
-    const vbool8 same = inside & (object_then == object) &
-                        (product >= vint8(least_normal_product)) & (abs(off) <= tolerance);
+    const vbool8 same =
+        inside & (object_then == object) &
+        (nothing | ((product >= vint8(least_normal_product)) & (abs(off) <= tolerance)));
     const vfloat8 share = (right ? ax : vfloat8(1.0f) - ax) * (down ? ay : vfloat8(1.0f) - ay);
     const vfloat8 weight = blend0(share, same);
     weight.store(taps.weight[tap].data());

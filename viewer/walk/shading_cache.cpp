@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "integrator/sobol.h"
 #include "viewer/walk/pull_push.h"
 #include "viewer/walk/reprojection.h"
 
@@ -29,6 +30,13 @@ constexpr float least_share = 0.05f;
 constexpr float sure_share = 0.999f;
 // The age that counts like one sample less.
 constexpr float age_unit = 4.0f;
+// Where the scene changes: a sample that differs by this share calls for more in its block, so many
+// times as many; what is known there counts like so many samples at most. Urgency dies away.
+constexpr float changed_share = 0.4f;
+constexpr float most_urgent = 15.0f;
+constexpr float most_outdated_samples = 0.5f;
+constexpr float outdating_urgency = 0.9f;
+constexpr float urgency_kept = 0.7f, urgency_spread = 0.5f, least_urgency = 0.02f;
 // Rows whose errors are diffused by themselves, so that several threads choose.
 constexpr int band_height = 64;
 
@@ -40,6 +48,20 @@ void for_each_row(int height, const Body& body) {
 }
 
 constexpr auto specular_term = static_cast<std::size_t>(Term::specular);
+
+// Whether light that comes straight from where it is made has changed by more than its noise
+// usually is.
+bool differs(const LiveSample& sample, const float* lanes) {
+  float now = 0.0f, before = 0.0f;
+  for (const Term term : {Term::emitted, Term::direct, Term::caustic}) {
+    const auto t = static_cast<std::size_t>(term);
+    for (std::size_t c = 0; c < 3; ++c) {
+      now += sample.terms[t][static_cast<int>(c)];
+      before += lanes[3 * t + c];
+    }
+  }
+  return std::abs(now - before) > changed_share * std::max(now, before);
+}
 
 }  // namespace
 
@@ -57,10 +79,13 @@ ShadingCache::ShadingCache(int width, int height)
       height_(height),
       shades_(std::size_t(width) * std::size_t(height)),
       last_shades_(shades_.shade.size()),
-      rows_(std::size_t(height)) {}
+      rows_(std::size_t(height)),
+      blocks_across_((std::size_t(width) + block_side - 1) / block_side),
+      urgency_(blocks_across_ * ((std::size_t(height) + block_side - 1) / block_side), 0.0f) {}
 
 void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
   ++frame_;
+  spread_urgency();
   std::swap(shades_, last_shades_);
   const Reprojection reprojection(tracer.view(0), visibility.now(), tracer.view(1),
                                   visibility.last(), width_, height_);
@@ -87,7 +112,18 @@ void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
 
 void ShadingCache::rest() {
   ++frame_;
+  spread_urgency();
   for_each_row(height_, [&](int y) { grow_older(y); });
+}
+
+void ShadingCache::doubt(float most) {
+  for_each_row(height_, [&](int y) {
+    for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) {
+      float& samples = shades_.shade[i].lanes[Shade::samples_lane];
+      samples = std::min(samples, most);
+      shades_.specular_samples[i] = std::min(shades_.specular_samples[i], most);
+    }
+  });
 }
 
 void ShadingCache::forget() {
@@ -141,8 +177,27 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
 }
 
 float ShadingCache::want(std::size_t pixel) const {
-  return (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) /
+  return (1.0f + most_urgent * urgency_[block_of(pixel)]) *
+         (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) /
          (1.0f + shades_.shade[pixel].samples());
+}
+
+// What changes goes on to change, and next to it.
+void ShadingCache::spread_urgency() {
+  const std::vector<float> before = urgency_;
+  const std::size_t down = urgency_.size() / blocks_across_;
+  for (std::size_t y = 0; y < down; ++y) {
+    for (std::size_t x = 0; x < blocks_across_; ++x) {
+      const std::size_t i = y * blocks_across_ + x;
+      float around = 0.0f;
+      if (x > 0) around = std::max(around, before[i - 1]);
+      if (x + 1 < blocks_across_) around = std::max(around, before[i + 1]);
+      if (y > 0) around = std::max(around, before[i - blocks_across_]);
+      if (y + 1 < down) around = std::max(around, before[i + blocks_across_]);
+      const float u = std::max(urgency_kept * before[i], urgency_spread * around);
+      urgency_[i] = u < least_urgency ? 0.0f : u;
+    }
+  }
 }
 
 void ShadingCache::grow_older(int y) {
@@ -152,6 +207,10 @@ void ShadingCache::grow_older(int y) {
     std::uint16_t& age = shades_.age[pixel];
     age = static_cast<std::uint16_t>(age + (age < 0xffff ? 1 : 0));
     row.age += age;
+    if (urgency_[block_of(pixel)] >= outdating_urgency) {
+      float& samples = shades_.shade[pixel].lanes[Shade::samples_lane];
+      samples = std::min(samples, most_outdated_samples);
+    }
     if (shades_.shade[pixel].samples() > 0.0f) {
       row.wanted += double(want(pixel));
     } else {
@@ -179,6 +238,13 @@ void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests)
   tbb::parallel_for(0, bands, [&](int band) {
     std::vector<LiveRequest>& to = chosen[static_cast<std::size_t>(band)];
     std::vector<float> carried(std::size_t(width_) + 2, 0.0f), next(std::size_t(width_) + 2, 0.0f);
+    // What rows above the band would have left over; without it the first rows would be left out.
+    for (std::size_t c = 1; c <= std::size_t(width_); ++c) {
+      const std::uint32_t bits = mix_bits(hash_combine(
+          frame_, static_cast<std::uint32_t>(band) * static_cast<std::uint32_t>(width_) +
+                      static_cast<std::uint32_t>(c)));
+      carried[c] = static_cast<float>(bits >> 8) * 0x1p-24f - 0.5f;
+    }
     const int end = std::min(height_, (band + 1) * band_height);
     for (int y = band * band_height; y < end; ++y) {
       const bool forward = y % 2 == 0;
@@ -190,7 +256,7 @@ void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests)
         const bool hole = !(shades_.shade[i].samples() > 0.0f);
         const float density = hole ? share_of_holes : std::min(1.0f, scale * want(i));
         const float value = density + carried[c] + ahead;
-        const bool take = value >= 0.5f;
+        const bool take = density >= 1.0f || (density > 0.0f && value >= 0.5f);
         if (take) to.push_back({static_cast<std::uint32_t>(i), frame_});
         const float error = value - (take ? 1.0f : 0.0f);
         ahead = error * (7.0f / 16.0f);
@@ -220,6 +286,10 @@ void ShadingCache::add(const std::vector<LiveSample>& samples) {
                         const LiveSample& sample = samples[k];
                         Shade& s = shades_.shade[sample.pixel];
                         float& count = s.lanes[Shade::samples_lane];
+                        if (changing_ && count > 0.0f && differs(sample, s.lanes.data())) {
+                          std::atomic_ref<float>(urgency_[block_of(sample.pixel)])
+                              .store(1.0f, std::memory_order_relaxed);
+                        }
                         float& specular_count = shades_.specular_samples[sample.pixel];
                         const float share = 1.0f / (count + 1.0f),
                                     specular_share = 1.0f / (specular_count + 1.0f);

@@ -25,8 +25,15 @@ class ShadingCache {
   // guessed there is settled.
   void see(LiveTracer& tracer, Visibility& visibility);
 
+  // For frames to come, whether the scene is changing: samples that differ from what is known then
+  // call for more around them, and what was known there counts little.
+  void expect_changes(bool expected) { changing_ = expected; }
+
   // A new frame of the same view.
   void rest();
+
+  // What pixels show rests on so many samples at most from now on, > 0.
+  void doubt(float most);
 
   // All pixels show nothing again.
   void forget();
@@ -75,6 +82,11 @@ class ShadingCache {
   void carry_over(const class Reprojection& reprojection, int left, int y,
                   const Visibility& visibility, std::vector<std::uint32_t>& doubtful);
   void grow_older(int y);
+  void spread_urgency();
+  std::size_t block_of(std::size_t pixel) const {
+    return pixel / static_cast<std::size_t>(width_) / block_side * blocks_across_ +
+           pixel % static_cast<std::size_t>(width_) / block_side;
+  }
   float want(std::size_t pixel) const;
   static Color sum(const Shade& shade, const std::array<float, term_count>& shown);
   std::size_t at(int x, int y) const {
@@ -86,6 +98,12 @@ class ShadingCache {
   std::uint32_t frame_ = 0;  // numbers samples
   Shades shades_, last_shades_;
   std::vector<Row> rows_;
+
+  // Where the light was seen to change, [0, 1], of blocks of pixels.
+  static constexpr std::size_t block_side = 8;
+  std::size_t blocks_across_;
+  std::vector<float> urgency_;
+  bool changing_ = false;
 };
 
 }  // namespace lumivec

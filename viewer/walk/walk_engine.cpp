@@ -22,6 +22,10 @@ constexpr double share_of_records = 0.4;
 // The first picture may take so long, or a frame's time if that is more: without any record its
 // samples would be whole paths, which are noisy for long.
 constexpr double first_frame_seconds = 0.2;
+// Samples taken before cached light has become better count like so many at most.
+constexpr float most_outdated_samples = 4.0f;
+// Changes of the light show for so long.
+constexpr double restless_seconds = 1.0;
 // However slow a machine is, at least this share of the pixels is traced in every frame.
 constexpr double least_traced_share = 0.02;
 
@@ -57,6 +61,13 @@ void WalkEngine::trace_all() {
   shading_.add(samples_);
 }
 
+// Makes cached light that is missing.
+void WalkEngine::improve(double seconds) {
+  const unsigned before = tracer_.generation();
+  tracer_.improve(seconds);
+  if (tracer_.generation() != before) shading_.doubt(most_outdated_samples);
+}
+
 void WalkEngine::trace_within(double seconds) {
   const Clock::time_point start = Clock::now();
   const double pixels = static_cast<double>(width_) * static_cast<double>(height_);
@@ -75,12 +86,15 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   const Clock::time_point start = Clock::now();
   const RenderStatistics before = tracer_.statistics();
   Frame frame;
-  const bool moved = !last_ || !same_view(*last_, camera);
+  const bool moved = !last_ || changed_ || !same_view(*last_, camera);
   last_ = camera;
   if (moved) {
     tracer_.set_view(camera, width_, height_);
-    // Nothing is known before the first frame, and guesses end with the movement.
-    frame_ > 0 && mode_.reuse ? visibility_.see_next(tracer_) : visibility_.see_all(tracer_);
+    // Nothing is known before the first frame, little of what else moves, and guesses end with the
+    // movement.
+    const bool all = frame_ == 0 || changed_ || !mode_.reuse;
+    all ? visibility_.see_all(tracer_) : visibility_.see_next(tracer_);
+    shading_.expect_changes(changed_ || seconds_since_change_ < restless_seconds);
     shading_.see(tracer_, visibility_);
     pivot_ = tracer_.pivot(visibility_.now());
   } else {
@@ -88,14 +102,15 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
     shading_.rest();
   }
   moved_ = moved;
+  changed_ = false;
   if (frame_ == 0) frame_time = std::max(frame_time, first_frame_seconds);
   if (mode_.reuse) {
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
-    tracer_.improve(std::max(0.0, share_of_records * left));
+    improve(std::max(0.0, share_of_records * left));
     trace_within(frame_time - seconds_since(start) - fixed_seconds_);
   } else {
     shading_.forget();
-    tracer_.improve(share_of_records * frame_time);
+    improve(share_of_records * frame_time);
     trace_all();
   }
   const Clock::time_point traced = Clock::now();
@@ -103,6 +118,7 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   const double after = seconds_since(traced);
   fixed_seconds_ += learning * (after - fixed_seconds_);
   frame.seconds = seconds_since(start);
+  seconds_since_change_ += frame.seconds;
   ++frame_;
 
   frame.traced = samples_.size();
@@ -112,6 +128,14 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   frame.cache_hits = tracer_.statistics().cache_hits - before.cache_hits;
   frame.cache_misses = tracer_.statistics().cache_misses - before.cache_misses;
   return frame;
+}
+
+void WalkEngine::update(const SceneChanges& changes) {
+  if (changes.empty()) return;
+  tracer_.update(changes);
+  shading_.doubt(most_outdated_samples);
+  changed_ = true;
+  seconds_since_change_ = 0.0;
 }
 
 V3d WalkEngine::pivot() const {

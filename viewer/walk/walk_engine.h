@@ -40,6 +40,9 @@ class WalkEngine {
   Frame advance(const Camera& camera, double frame_time, std::uint32_t terms,
                 std::vector<Color>& picture);
 
+  // The scene has been changed since the last frame. Throws RenderError.
+  void update(const SceneChanges& changes);
+
   // One term of the last frame, without any tracing.
   void layer(Term term, std::vector<Color>& pixels) const {
     shading_.resolve(1u << static_cast<unsigned>(term), visibility_.now(), pixels);
@@ -52,6 +55,7 @@ class WalkEngine {
   const RenderStatistics& statistics() const { return tracer_.statistics(); }
 
  private:
+  void improve(double seconds);
   void trace_all();
   void trace_within(double seconds);
 
@@ -62,6 +66,8 @@ class WalkEngine {
   ShadingCache shading_;
   std::optional<Camera> last_;
   bool moved_ = false;
+  bool changed_ = false;             // the scene, since the last frame
+  double seconds_since_change_ = 0;  // of frames
   std::uint32_t frame_ = 0;
   double sample_seconds_;         // of one sample, as measured
   double fixed_seconds_ = 0.005;  // of what is done once a frame after tracing, as measured
