@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import html.parser
+import io
 import json
 import os
 import re
@@ -22,8 +24,10 @@ sys.path.insert(0, str(TOP / "tools"))
 from report_parts.markup import number, seconds  # noqa: E402
 from report_parts.plan import Plan, find_scene  # noqa: E402
 from report_parts.plots import Level, Line, plot  # noqa: E402
+from report_parts.progress import Progress  # noqa: E402
 from report_parts.results import Reach, percentile, time_to_reach  # noqa: E402
 from report_parts.scale import FULL, QUICK  # noqa: E402
+from report_parts.steps import Result, Step  # noqa: E402
 
 SECTIONS = ("summary", "errors", "table-1", "query", "walks", "hard-cases", "validity", "rays")
 SECTIONS += ("memory", "pictures", "runs")
@@ -358,6 +362,26 @@ class FigureTest(unittest.TestCase):
                 line = Line("a", [(1.0, value)])
                 text = plot("t", "x", "y", [line], (), logarithmic, logarithmic)
                 self.assertEqual(len(xml.fromstring(text).findall("circle")), 2)
+
+
+class ProgressTest(unittest.TestCase):
+    def test_says_something_while_a_step_takes_long(self) -> None:
+        step = Step("walk", {}, Path("p"), (), "k", Path("f"), None, (), (), 10.0)
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said), Progress([step, step], 1, beat=0.01) as progress:
+            progress.begin(step)
+            for _ in range(1000):
+                if "so far" in said.getvalue():
+                    break
+                time.sleep(0.01)
+            progress.end(step, Result("ok", seconds=20.0))
+            progress.begin(step)
+        lines = said.getvalue().splitlines()
+        self.assertEqual(lines[0], "report: 1 of 3 steps are kept from before")
+        self.assertEqual(lines[1], "report: 1/2 walk; about 20 s left")
+        self.assertRegex(lines[2], "^report: 1/2 walk, for 1 s so far; about 20 s left$")
+        # The first took twice its estimate.
+        self.assertIn("report: 2/2 walk; about 20 s left", lines)
 
 
 class PlanTest(unittest.TestCase):
