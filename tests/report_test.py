@@ -214,9 +214,12 @@ class ReportTest(unittest.TestCase):
         row = figures["table-1"]["scenes"][0]["rows"][2]
         self.assertEqual(row["paper"]["following_seconds"], 13.0)
         self.assertEqual(row["median_seconds"], QUICK.frame_time * 1e-3)
+        error = figures["table-1"]["scenes"][0]["equal_error"]
+        self.assertAlmostEqual(error["reference_noise"], 2e-4 * 8 / QUICK.walk_reference_samples)
+        self.assertFalse(error["noisy"])
         # Pretended walks: rc needs four times as long as rc+lv for the same FLIP.
-        gain = figures["table-1"]["scenes"][0]["equal_error"]["rc_by_flip"]["gain"]
-        self.assertAlmostEqual(gain, 0.75, places=6)
+        self.assertAlmostEqual(error["rc_by_flip"]["gain"], 0.75, places=6)
+        self.assertAlmostEqual(error["rc"]["gain"], 0.75, places=2)
         self.assertEqual(figures["rays"]["scenes"][0]["camera"], 2e6)
         self.assertEqual(figures["summary"]["hard_cases_with_too_much_error"], 1)
         self.assertEqual(figures["pictures"]["scenes"][0]["stills"][1]["flip"], 0.125)

@@ -125,7 +125,7 @@ td { border-bottom: 1px solid #e4e4e4; vertical-align: top; }
 td.figure { font-variant-numeric: tabular-nums; white-space: nowrap; }
 .wide { overflow-x: auto; }
 .row { display: flex; flex-wrap: wrap; gap: 1em; align-items: flex-start; }
-figure { margin: 0; max-width: 280px; } figure img { width: 100%; image-rendering: pixelated; }
+figure { margin: 0; max-width: 280px; } figure img { width: 100%; }
 figcaption { font-size: .85em; }
 .failed { background: #fdeaea; border-left: 4px solid #c22; padding: .5em .8em; margin: .6em 0; }
 .note { color: #555; font-size: .92em; }

@@ -170,7 +170,7 @@ def plot(
         parts.append(_straight(LEFT, y, WIDTH - RIGHT, y, stroke="#777", stroke_dasharray="3 3"))
         # On either side in turn: levels may lie close together.
         x, anchor = (WIDTH - RIGHT - 4, "end") if i % 2 == 0 else (LEFT + 4, "start")
-        parts.append(_text(x, y - 4, level.name, anchor))
+        parts.append(_text(x, y - 4 if y > TOP + 12 else y + 12, level.name, anchor))
     row = 0
     for line, indices in zip(lines, shown):
         color = COLORS[line.color % len(COLORS)]
