@@ -15,6 +15,7 @@ DASHES = ("", "7 3", "2 3", "9 3 2 3", "4 2", "12 3")
 WIDTH, HEIGHT = 400, 300
 LEFT, RIGHT, TOP, BOTTOM = 58, 12, 26, 40
 LEGEND_LINE = 16
+LABEL_ROOM = 24  # above a level, if its name is to stand there
 
 # Of a triangle and of a lozenge: the third and the fourth marker.
 CORNERS = {2: ((0, -4), (4, 3), (-4, 3)), 3: ((0, -4.5), (4.5, 0), (0, 4.5), (-4.5, 0))}
@@ -170,7 +171,7 @@ def plot(
         parts.append(_straight(LEFT, y, WIDTH - RIGHT, y, stroke="#777", stroke_dasharray="3 3"))
         # On either side in turn: levels may lie close together.
         x, anchor = (WIDTH - RIGHT - 4, "end") if i % 2 == 0 else (LEFT + 4, "start")
-        parts.append(_text(x, y - 4 if y > TOP + 12 else y + 12, level.name, anchor))
+        parts.append(_text(x, y - 4 if y > TOP + LABEL_ROOM else y + 12, level.name, anchor))
     row = 0
     for line, indices in zip(lines, shown):
         color = COLORS[line.color % len(COLORS)]

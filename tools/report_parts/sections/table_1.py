@@ -75,14 +75,15 @@ def _reference_noise(results: Results, scene: str, scale: Scale) -> Optional[flo
     return None
 
 
-def _equal_error(results: Results, runs: list[dict], scene: str, scale: Scale) -> dict:
-    """What the others need to reach the error of rc+lv."""
-    path = find_run(runs, scene, "path", scale.frame_time)
-    ours = find_run(runs, scene, "rc+lv", scale.frame_time)
+def _equal_error(
+    runs: list[dict], scene: str, frame_time: float, known_noise: Optional[float]
+) -> dict:
+    """What the others need to reach the error of rc+lv with that frame time."""
+    path = find_run(runs, scene, "path", frame_time)
+    ours = find_run(runs, scene, "rc+lv", frame_time)
     if ours is None or ours["median_relmse"] is None:
         return {}
     own = ours["seconds"]["median"]
-    known_noise = _reference_noise(results, scene, scale)
     noise = known_noise or 0.0
     target = max(0.0, ours["median_relmse"] - noise)
     curve = [(t, max(0.0, e - noise)) for t, e in _series(runs, scene, "rc", "median_relmse")]
@@ -90,6 +91,7 @@ def _equal_error(results: Results, runs: list[dict], scene: str, scale: Scale) -
     if ours["median_flip"] is not None:
         by_flip = time_to_reach(_series(runs, scene, "rc", "median_flip"), ours["median_flip"])
     return {
+        "frame_time_ms": frame_time,
         "rc_lv_seconds": own,
         "rc_lv_relmse": ours["median_relmse"],
         "rc_lv_flip": ours["median_flip"],
@@ -119,6 +121,8 @@ def figures(results: Results, scale: Scale) -> dict:
     runs = walk_runs(results)
     scenes = []
     for scene in scenes_of(results):
+        noise = _reference_noise(results, scene, scale)
+        equal = [_equal_error(runs, scene, time, noise) for time in scale.frame_times]
         rows = []
         for mode in WALK_MODES:
             run = find_run(runs, scene, mode, scale.frame_time)
@@ -141,7 +145,8 @@ def figures(results: Results, scale: Scale) -> dict:
                 "rows": rows,
                 "paper_gain": paper.GAINS.get(scene),
                 "equal_time": _equal_time(runs, scene, scale),
-                "equal_error": _equal_error(results, runs, scene, scale),
+                "equal_error": equal[scale.frame_times.index(scale.frame_time)],
+                "equal_error_by_frame_time": [entry for entry in equal if entry],
                 "curves": curves,
             }
         )
@@ -213,21 +218,24 @@ def _gains(content: dict) -> Html:
 def _needed(content: dict) -> Html:
     rows = []
     for scene in content["scenes"]:
-        error = scene["equal_error"]
-        rows.append(
-            [
-                scene["scene"],
-                number(error.get("rc_lv_relmse")),
-                number(error.get("reference_noise")),
-                seconds(error.get("rc_lv_seconds")),
-                reach_text(error.get("rc")),
-                reach_text(error.get("rc_by_flip")),
-                reach_text(error.get("path")),
-            ]
-        )
-    headers = ["scene", "relMSE of rc+lv", "reference's noise", "rc+lv", "rc", "rc, by FLIP"]
-    headers.append("path")
-    return table(headers, rows, "Frame time that is needed to reach the error of rc+lv")
+        for error in scene["equal_error_by_frame_time"]:
+            rows.append(
+                [
+                    scene["scene"],
+                    f"{error['frame_time_ms']:g} ms",
+                    number(error["rc_lv_relmse"]) + (" (noisy)" if error["noisy"] else ""),
+                    number(error["reference_noise"]),
+                    number(error["rc_lv_flip"]),
+                    seconds(error["rc_lv_seconds"]),
+                    reach_text(error["rc"]),
+                    reach_text(error["rc_by_flip"]),
+                    reach_text(error["path"]),
+                ]
+            )
+    headers = ["scene", "frame time asked", "relMSE of rc+lv", "reference's noise", "FLIP of rc+lv"]
+    headers += ["rc+lv", "rc", "rc, by FLIP", "path"]
+    caption = "Frame time that is needed to reach the error of rc+lv"
+    return table(headers, rows, caption, words=2)
 
 
 def _curves(content: dict) -> Html:
