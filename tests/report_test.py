@@ -87,7 +87,8 @@ elif words[0] == "walk":
     write("frames/frame_%05d.png" % last, "last")
     ms = float(option("--frame-time")) if "--frame-time" in words else 100.0
     error = 1.0 / ms if option("--mode") == "rc+lv" else 4.0 / ms
-    frames = [{{"seconds": ms * 1e-3, "traced": 50, "relmse": error, "flip": error}}] * (last + 1)
+    frames = [{{"seconds": ms * 1e-3, "traced": 50, "relmse": error, "flip": error,
+               "change": 0.3, "reference_change": 0.2}}] * (last + 1)
     figures = {{"mode": option("--mode"), "frames": frames, "cache_bytes": 2048}}
 elif words[0] == "render":
     write("picture.exr", "layers")
@@ -220,6 +221,7 @@ class ReportTest(unittest.TestCase):
         # Pretended walks: rc needs four times as long as rc+lv for the same FLIP.
         self.assertAlmostEqual(error["rc_by_flip"]["gain"], 0.75, places=6)
         self.assertAlmostEqual(error["rc"]["gain"], 0.75, places=2)
+        self.assertAlmostEqual(figures["walks"]["runs"][0]["median_change_ratio"], 1.5)
         self.assertEqual(figures["rays"]["scenes"][0]["camera"], 2e6)
         self.assertEqual(figures["summary"]["hard_cases_with_too_much_error"], 1)
         self.assertEqual(figures["pictures"]["scenes"][0]["stills"][1]["flip"], 0.125)

@@ -7,6 +7,7 @@ from typing import Optional
 from ..results import Results, entries, figure, median, percentile
 
 FRAME_FIGURES = ("seconds", "traced", "filled", "relmse", "flip", "cache_hits", "cache_misses")
+FRAME_FIGURES += ("change", "reference_change")  # of the displayed picture since the frame before
 SHARES = {"median": 0.5, "95%": 0.95, "99%": 0.99, "worst": 1.0}
 
 
@@ -17,6 +18,11 @@ def _run(tags: dict, output: object, peak_bytes: Optional[int]) -> dict:
         name: [value for value in (values[1:] or values) if value is not None]
         for name, values in frames.items()
     }
+    changes = [
+        change / expected
+        for change, expected in zip(frames["change"][1:], frames["reference_change"][1:])
+        if change is not None and expected
+    ]
     time = tags.get("frame time")
     return {
         "scene": tags["scene"],
@@ -28,6 +34,7 @@ def _run(tags: dict, output: object, peak_bytes: Optional[int]) -> dict:
         "median_flip": median(following["flip"]),
         "worst_flip": percentile(following["flip"], 1.0),
         "median_traced": median(following["traced"]),
+        "median_change_ratio": median(changes),
         "median_filled": median(following["filled"]),
         "records": figure(output, "records"),
         "cache_bytes": figure(output, "cache_bytes"),

@@ -58,10 +58,11 @@ def _percentiles(content: dict, scene: str) -> Html:
                 number(run["median_relmse"]),
                 number(run["median_flip"]),
                 number(run["worst_flip"]),
+                number(run["median_change_ratio"]),
             ]
         )
     headers = ["mode", "frame time asked", "first", *SHARES, "traced", "filled"]
-    headers += ["relMSE (median)", "FLIP (median)", "FLIP (worst)"]
+    headers += ["relMSE (median)", "FLIP (median)", "FLIP (worst)", "change"]
     return table(headers, rows, "All frames but the first", words=2)
 
 
@@ -71,7 +72,8 @@ def show(content: dict, folder: Path) -> Html:
         paragraph(
             f"The eye goes {content['orbit_degrees']:g} degrees around what it looks at. Drawn are "
             f"rc and rc+lv with a frame time of {content['frame_time_ms']:g} ms; path and lv trace "
-            "every pixel of every frame. Filled: pixels without a sample near."
+            "every pixel of every frame. Filled: pixels without a sample near. Change: that of the "
+            "picture from frame to frame, by that of the reference; above 1, it flickers."
         ),
     ]
     for scene in content["scenes"]:
