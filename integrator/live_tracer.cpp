@@ -44,8 +44,8 @@ constexpr std::array<float, 2> meanwhile_slacks = {16.0f, 4096.0f};
 // Light paths of a photon map.
 constexpr std::uint64_t map_paths = 1 << 16;
 constexpr std::uint32_t map_batch = 4096;
-// Likewise while the scene changes.
-constexpr std::uint64_t hurried_map_paths = map_paths / 4;
+// Likewise before the first picture, and while the scene changes.
+constexpr std::uint64_t hurried_map_paths = map_paths / 8;
 
 }  // namespace
 
@@ -87,7 +87,9 @@ struct LiveTracer::State {
     std::vector<Photon> all;
     for (const std::vector<Photon>& some : batches) all.insert(all.end(), some.begin(), some.end());
     statistics.photons += all.size();
-    photons.build(std::move(all), paths, 0);
+    // As many photons in a disc as those of a still, which has a path for each pixel.
+    const float pixels = static_cast<float>(settings.width) * static_cast<float>(settings.height);
+    photons.build(std::move(all), paths, 0, std::max(1.0f, pixels / static_cast<float>(paths)));
   }
 
   // Up to a packet of pixels.
@@ -164,7 +166,8 @@ struct LiveTracer::State {
   IrradianceCache cache;
   PhotonMap photons;
   bool has_photons = false;
-  std::uint64_t outdated_photons = 0;  // light paths to map before the next frame
+  bool photons_outdated = false;
+  bool photons_hurried = false;  // there are fewer than there should be
   std::optional<CameraView> view, last_view;
   std::optional<PathTracer> tracer;  // of that view
   std::optional<CacheBuilder> builder;
@@ -200,13 +203,22 @@ void LiveTracer::set_view(const Camera& camera, int width, int height) {
   if (s.cached() && !s.builder) {
     // It knows the tracer by where it is, which stays the same.
     s.builder.emplace(*s.tracer, *s.traced, s.settings, s.cache);
-    s.outdated_photons = map_paths;
+    s.photons_outdated = true;
   }
-  if (s.builder && s.outdated_photons > 0) {
-    s.arena.execute([&] { s.map_photons(s.outdated_photons); });
+  if (s.builder && s.photons_outdated) {
+    s.arena.execute([&] { s.map_photons(hurried_map_paths); });
     s.builder->set_photons(s.has_photons ? &s.photons : nullptr);
-    s.outdated_photons = 0;
+    s.photons_outdated = false;
+    s.photons_hurried = s.has_photons;
   }
+}
+
+void LiveTracer::take_time() {
+  State& s = *state_;
+  if (!s.builder || !s.photons_hurried) return;
+  s.arena.execute([&] { s.map_photons(map_paths); });
+  s.photons_hurried = false;
+  ++s.generation;
 }
 
 void LiveTracer::update(const SceneChanges& changes) {
@@ -236,7 +248,7 @@ void LiveTracer::update(const SceneChanges& changes) {
     }
   }
   if (s.builder) s.builder->change(parts);
-  s.outdated_photons = hurried_map_paths;
+  s.photons_outdated = true;
   ++s.generation;
 }
 

@@ -71,6 +71,9 @@ class LiveTracer {
   void trace(const std::vector<LiveRequest>& requests, bool centered,
              std::vector<LiveSample>& samples);
 
+  // For a view that rests: does what takes longer than a frame.
+  void take_time();
+
   // Makes cached light that the view lacks for at most so long; light-vectors alone. False: time
   // was too short for all of it.
   bool improve(double seconds);

@@ -41,7 +41,8 @@ float kernel_share(float t) {
 
 }  // namespace
 
-void PhotonMap::build(std::vector<Photon> photons, std::uint64_t paths, std::uint32_t number) {
+void PhotonMap::build(std::vector<Photon> photons, std::uint64_t paths, std::uint32_t number,
+                      float widen) {
   photons_ = std::move(photons);
   std::vector<V3f> positions;
   positions.reserve(photons_.size());
@@ -51,7 +52,7 @@ void PhotonMap::build(std::vector<Photon> photons, std::uint64_t paths, std::uin
   for (std::size_t i = 0; i < positions.size(); i += few_stride) few.push_back(positions[i]);
   few_tree_.assign(few);
   flux_scale_ = paths > 0 ? static_cast<float>(1.0 / static_cast<double>(paths)) : 0.0f;
-  double area = 1.0;
+  double area = widen;
   for (std::uint32_t i = 1; i <= number; ++i) area *= (i + area_rate) / (i + 1.0);
   shrink_ = static_cast<float>(area);
 }

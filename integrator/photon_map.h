@@ -56,7 +56,9 @@ class PhotonMap {
   explicit PhotonMap(const TracedScene& scene) : scene_(scene) {}
 
   // Replaces all photons by those of `paths` light paths. number: of the map, from 0 on.
-  void build(std::vector<Photon> photons, std::uint64_t paths, std::uint32_t number);
+  // widen: factor of the discs' area, for maps of few paths.
+  void build(std::vector<Photon> photons, std::uint64_t paths, std::uint32_t number,
+             float widen = 1.0f);
 
   bool empty() const { return photons_.empty(); }
   std::size_t bytes() const {

@@ -22,6 +22,8 @@ constexpr double share_of_records = 0.4;
 // The first picture may take so long, or a frame's time if that is more: without any record its
 // samples would be whole paths, which are noisy for long.
 constexpr double first_frame_seconds = 0.2;
+// A view is at rest after so many frames.
+constexpr int frames_to_rest = 8;
 // Samples taken before cached light has become better count like so many at most.
 constexpr float most_outdated_samples = 4.0f;
 // Changes of the light show for so long.
@@ -89,6 +91,7 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   const bool moved = !last_ || changed_ || !same_view(*last_, camera);
   last_ = camera;
   if (moved) {
+    resting_ = 0;
     tracer_.set_view(camera, width_, height_);
     // Nothing is known before the first frame, little of what else moves, and guesses end with the
     // movement.
@@ -100,13 +103,19 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   } else {
     if (moved_) visibility_.see_again(tracer_);
     shading_.rest();
+    if (++resting_ == frames_to_rest) {
+      const unsigned before = tracer_.generation();
+      tracer_.take_time();
+      if (tracer_.generation() != before) shading_.doubt(most_outdated_samples);
+    }
   }
   moved_ = moved;
   changed_ = false;
   if (frame_ == 0) frame_time = std::max(frame_time, first_frame_seconds);
   if (mode_.reuse) {
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
-    improve(std::max(0.0, share_of_records * left));
+    const double least = frame_ == 0 ? share_of_records * first_frame_seconds : 0.0;
+    improve(std::max(least, share_of_records * left));
     trace_within(frame_time - seconds_since(start) - fixed_seconds_);
   } else {
     shading_.forget();

@@ -66,6 +66,7 @@ class WalkEngine {
   ShadingCache shading_;
   std::optional<Camera> last_;
   bool moved_ = false;
+  int resting_ = 0;                  // frames since the eye or the scene moved
   bool changed_ = false;             // the scene, since the last frame
   double seconds_since_change_ = 0;  // of frames
   std::uint32_t frame_ = 0;
