@@ -265,6 +265,7 @@ void TracedScene::prepare_constants() {
   std::map<const Material*, int> index_of;
   for (std::size_t i = 0; i < instances_.size(); ++i) {
     TracedInstance& instance = instances_[i];
+    if (!instance.material) continue;  // not visible
     const bool colored =
         instance.mesh && !instance.mesh->colors.empty() && instance.material->vertex_colors;
     if (varies(*instance.material) || colored) continue;

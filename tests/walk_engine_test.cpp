@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "cornell_scene.h"
@@ -33,6 +34,53 @@ TEST(walk_engine, resting_converges_to_the_still) {
     const double level = mean_of(beauty(still), 1).value;
     EXPECT_NEAR(d.value, 0.0, sigmas * d.error + (light_vectors ? 0.01 : 0.0) * level);
     EXPECT_LT(d.error, 0.05 * level) << "too noisy to tell";
+  }
+}
+
+// What is edited shows, and only that: the picture becomes the still of the changed scene.
+TEST(walk_engine, changes_show) {
+  constexpr int lamp = 5, block = 6;  // instances
+  constexpr int size = 16;
+  const Camera camera = cornell_camera();
+  struct Edit {
+    const char* name;
+    std::function<SceneChanges(Scene&)> apply;
+  };
+  const auto emission_of_lamp = [](Scene& scene) -> Color& {
+    return scene.materials[std::size_t(scene.instances[lamp].material)].emission;
+  };
+  const std::vector<Edit> edits = {
+      {"light",
+       [&](Scene& scene) {
+         emission_of_lamp(scene) *= Color(3.0f, 1.0f, 0.3f);
+         return SceneChanges{{}, {}, true};
+       }},
+      {"object",
+       [&](Scene& scene) {
+         scene.instances[block].object_to_world *= translation({0.5, 0.5, 0.2});
+         return SceneChanges{{block}, {}, false};
+       }},
+      {"hidden",
+       [&](Scene& scene) {
+         scene.instances[block].visible = false;
+         return SceneChanges{{block}, {}, false};
+       }},
+  };
+  for (const Edit& edit : edits) {
+    for (const bool light_vectors : {false, true}) {
+      SCOPED_TRACE(std::string(edit.name) + (light_vectors ? ", light vectors" : ", paths"));
+      Scene scene = cornell_scene();
+      WalkEngine engine(scene, walk_settings(size), {true, light_vectors});
+      std::vector<Color> picture;
+      for (int i = 0; i < 16; ++i) engine.advance(camera, long_frame, all_terms, picture);
+      engine.update(edit.apply(scene));
+      for (int i = 0; i < 96; ++i) engine.advance(camera, long_frame, all_terms, picture);
+      const Framebuffer still = render_clean(scene, camera, square(size, 256));
+      const Mean d = mean_difference(picture, beauty(still));
+      const double level = mean_of(beauty(still), 1).value;
+      EXPECT_NEAR(d.value, 0.0, sigmas * d.error + (light_vectors ? 0.01 : 0.0) * level);
+      EXPECT_LT(d.error, 0.08 * level) << "too noisy to tell";
+    }
   }
 }
 
