@@ -21,6 +21,7 @@
 #include "viewer/interrupt.h"
 #include "viewer/json_text.h"
 #include "viewer/layered_image.h"
+#include "viewer/movie_writer.h"
 #include "viewer/still_writer.h"
 #include "viewer/text_format.h"
 
@@ -208,6 +209,10 @@ nlohmann::json summary(const std::vector<FrameReport>& reports, bool compared) {
   return json;
 }
 
+bool is_movie(const fs::path& file) {
+  return file.extension() == ".mp4";
+}
+
 // Of an animation that is played again and again.
 double moment(const Animation& animation, double seconds) {
   const double length = animation_length(animation);
@@ -237,7 +242,7 @@ int run_walk(const WalkOptions& options) {
                   std::size_t(options.settings.threads));
   }
   if (!options.statistics.empty()) check_writable(options.statistics);
-  if (!options.output.empty()) make_folder(options.output);
+  if (!options.output.empty() && !is_movie(options.output)) make_folder(options.output);
   const DisplayTransform display(options.display);
   Scene scene = load_lit_scene(options.scene_file, options.load, options.environment,
                                [&](const std::string& warning) {
@@ -284,6 +289,9 @@ int run_walk(const WalkOptions& options) {
   std::vector<FrameReport> reports;
   Shown last_shown;
   int reference_frame = 0;
+  std::optional<MovieWriter> movie;
+  if (is_movie(options.output))
+    movie.emplace(options.output, size.width, size.height, options.frames_per_second);
   for (int i = 0; i < options.frames && !interrupt.requested(); ++i) {
     const Camera& view = cameras[std::size_t(i)];
     FrameReport report;
@@ -308,14 +316,20 @@ int run_walk(const WalkOptions& options) {
     if (!options.output.empty()) {
       Picture shown = picture;
       display.apply(shown, exposure);
-      StillHeader header;
-      header.scene = options.scene_file.string();
-      header.settings = options.command;
-      write_displayed(frame_file(options.output, i, "png"), shown, {8, display.is_srgb()}, header);
+      if (movie) {
+        movie->add(shown);
+      } else {
+        StillHeader header;
+        header.scene = options.scene_file.string();
+        header.settings = options.command;
+        write_displayed(frame_file(options.output, i, "png"), shown, {8, display.is_srgb()},
+                        header);
+      }
     }
     reports.push_back(report);
   }
   if (reports.empty()) return exit_interrupted;
+  if (movie) movie->finish();
 
   const nlohmann::json figures = summary(reports, compared);
   if (!options.statistics.empty()) {

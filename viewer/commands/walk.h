@@ -33,7 +33,7 @@ struct WalkOptions {
   WalkMode walk_mode;
   double frame_time = 0.033;        // seconds
   RenderSettings settings;          // terms, seed, threads
-  std::filesystem::path output;     // folder for the frames; empty: none
+  std::filesystem::path output;     // folder for the frames, or a movie (.mp4); empty: none
   std::filesystem::path reference;  // folder of path-traced frames; empty: none
   int reference_samples = 256;      // a pixel
   bool automatic_exposure = false;

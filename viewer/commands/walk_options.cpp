@@ -26,7 +26,7 @@ void add_walk_group(CLI::App& app, WalkOptions& options) {
                    "Plays an animation of the scene from its beginning, again and again",
                    [&options](const std::string& text) { options.animation = text; })
       ->group(group);
-  add_value_option(app, "--fps", "N", "Frames in a second of the animation [30]",
+  add_value_option(app, "--fps", "N", "Frames in a second of the animation and of the movie [30]",
                    [&options](const std::string& text) {
                      constexpr double most = 1e4;
                      options.frames_per_second = parse_number("--fps", text, 1e-3, most);
@@ -80,7 +80,9 @@ void add_walk_group(CLI::App& app, WalkOptions& options) {
 
 void add_output_group(CLI::App& app, WalkOptions& options) {
   const std::string group = "Output";
-  add_value_option(app, "-o,--output", "FOLDER", "Write the frames there, as displayed (PNG)",
+  add_value_option(app, "-o,--output", "FOLDER|MOVIE.mp4",
+                   "Write the frames there, as displayed: PNG files, or a movie, which takes the "
+                   "program ffmpeg",
                    [&options](const std::string& text) { options.output = text; })
       ->group(group);
   add_value_option(
@@ -114,8 +116,9 @@ void check_walk_options(const CLI::App& app, const WalkOptions& options) {
   if (app.count("--reference-spp") && options.reference.empty())
     throw UsageError("--reference-spp: there is no reference; add --reference FOLDER");
   const std::string extension = options.output.extension().string();
-  if (extension == ".mp4" || extension == ".gif" || extension == ".png" || extension == ".exr")
-    throw UsageError(options.output.string() + ": frames are written to a folder; name one");
+  if (extension == ".gif" || extension == ".png" || extension == ".exr")
+    throw UsageError(options.output.string() +
+                     ": frames are written to a folder or a movie; name one, or a .mp4 file");
 }
 
 }  // namespace lumivec

@@ -63,11 +63,11 @@ void WalkEngine::trace_all() {
   shading_.add(samples_);
 }
 
-// Makes cached light that is missing.
-void WalkEngine::improve(double seconds) {
-  const unsigned before = tracer_.generation();
-  tracer_.improve(seconds);
-  if (tracer_.generation() != before) shading_.doubt(most_outdated_samples);
+// Samples that were taken before cached light became better are worth less.
+void WalkEngine::change_light(const std::function<void()>& change) {
+  const unsigned generation = tracer_.generation();
+  change();
+  if (tracer_.generation() != generation) shading_.doubt(most_outdated_samples);
 }
 
 void WalkEngine::trace_within(double seconds) {
@@ -103,11 +103,7 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   } else {
     if (moved_) visibility_.see_again(tracer_);
     shading_.rest();
-    if (++resting_ == frames_to_rest) {
-      const unsigned before = tracer_.generation();
-      tracer_.take_time();
-      if (tracer_.generation() != before) shading_.doubt(most_outdated_samples);
-    }
+    if (++resting_ == frames_to_rest) change_light([&] { tracer_.take_time(); });
   }
   moved_ = moved;
   changed_ = false;
@@ -115,11 +111,11 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   if (mode_.reuse) {
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
     const double least = frame_ == 0 ? share_of_records * first_frame_seconds : 0.0;
-    improve(std::max(least, share_of_records * left));
+    change_light([&] { tracer_.improve(std::max(least, share_of_records * left)); });
     trace_within(frame_time - seconds_since(start) - fixed_seconds_);
   } else {
     shading_.forget();
-    improve(share_of_records * frame_time);
+    change_light([&] { tracer_.improve(share_of_records * frame_time); });
     trace_all();
   }
   const Clock::time_point traced = Clock::now();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -55,7 +56,7 @@ class WalkEngine {
   const RenderStatistics& statistics() const { return tracer_.statistics(); }
 
  private:
-  void improve(double seconds);
+  void change_light(const std::function<void()>& change);
   void trace_all();
   void trace_within(double seconds);
 
