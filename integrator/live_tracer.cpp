@@ -75,21 +75,23 @@ struct LiveTracer::State {
   bool cached() const { return settings.integrator == Integrator::light_vectors; }
 
   // Photons are where light falls, whatever the eye sees.
-  void map_photons(std::uint64_t paths) {
+  // number: of the map, each with other paths and narrower discs than the one before.
+  void map_photons(std::uint64_t paths, std::uint32_t number) {
     const LightTracer light_tracer(*traced, *lights, *view, settings, casters);
     has_photons = light_tracer.active();
     if (!has_photons) return;
     std::vector<std::vector<Photon>> batches(paths / map_batch);
     for_each(batches.size(), [&](std::size_t i) {
       RenderStatistics counts;
-      light_tracer.trace(i * map_batch, map_batch, batches[i], counts);
+      light_tracer.trace(number * map_paths + i * map_batch, map_batch, batches[i], counts);
     });
     std::vector<Photon> all;
     for (const std::vector<Photon>& some : batches) all.insert(all.end(), some.begin(), some.end());
     statistics.photons += all.size();
     // As many photons in a disc as those of a still, which has a path for each pixel.
     const float pixels = static_cast<float>(settings.width) * static_cast<float>(settings.height);
-    photons.build(std::move(all), paths, 0, std::max(1.0f, pixels / static_cast<float>(paths)));
+    photons.build(std::move(all), paths, number,
+                  std::max(1.0f, pixels / static_cast<float>(paths)));
   }
 
   // Up to a packet of pixels.
@@ -167,7 +169,7 @@ struct LiveTracer::State {
   PhotonMap photons;
   bool has_photons = false;
   bool photons_outdated = false;
-  bool photons_hurried = false;  // there are fewer than there should be
+  std::uint32_t next_map = 0;  // of full ones
   std::optional<CameraView> view, last_view;
   std::optional<PathTracer> tracer;  // of that view
   std::optional<CacheBuilder> builder;
@@ -206,19 +208,18 @@ void LiveTracer::set_view(const Camera& camera, int width, int height) {
     s.photons_outdated = true;
   }
   if (s.builder && s.photons_outdated) {
-    s.arena.execute([&] { s.map_photons(hurried_map_paths); });
+    s.arena.execute([&] { s.map_photons(hurried_map_paths, 0); });
     s.builder->set_photons(s.has_photons ? &s.photons : nullptr);
     s.photons_outdated = false;
-    s.photons_hurried = s.has_photons;
+    s.next_map = 0;
   }
 }
 
 void LiveTracer::take_time() {
   State& s = *state_;
-  if (!s.builder || !s.photons_hurried) return;
-  s.arena.execute([&] { s.map_photons(map_paths); });
-  s.photons_hurried = false;
-  ++s.generation;
+  if (!s.builder || !s.has_photons) return;
+  s.arena.execute([&] { s.map_photons(map_paths, s.next_map); });
+  if (s.next_map++ == 0) ++s.generation;
 }
 
 void LiveTracer::update(const SceneChanges& changes) {

@@ -71,7 +71,8 @@ class LiveTracer {
   void trace(const std::vector<LiveRequest>& requests, bool centered,
              std::vector<LiveSample>& samples);
 
-  // For a view that rests: does what takes longer than a frame.
+  // For a view that rests, each time its pixels have had about a sample: does what takes longer
+  // than a frame. Without it caustics do not converge.
   void take_time();
 
   // Makes cached light that the view lacks for at most so long; light-vectors alone. False: time

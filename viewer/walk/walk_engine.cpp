@@ -90,20 +90,25 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   Frame frame;
   const bool moved = !last_ || changed_ || !same_view(*last_, camera);
   last_ = camera;
+  shading_.expect_changes(changed_ || (changes_ && seconds_since_change_ < restless_seconds));
   if (moved) {
     resting_ = 0;
+    samples_at_rest_ = next_rest_ = 0;
     tracer_.set_view(camera, width_, height_);
     // Nothing is known before the first frame, little of what else moves, and guesses end with the
     // movement.
     const bool all = frame_ == 0 || changed_ || !mode_.reuse;
     all ? visibility_.see_all(tracer_) : visibility_.see_next(tracer_);
-    shading_.expect_changes(changed_ || seconds_since_change_ < restless_seconds);
     shading_.see(tracer_, visibility_);
     pivot_ = tracer_.pivot(visibility_.now());
   } else {
     if (moved_) visibility_.see_again(tracer_);
     shading_.rest();
-    if (++resting_ == frames_to_rest) change_light([&] { tracer_.take_time(); });
+    ++resting_;
+    if (resting_ >= frames_to_rest && samples_at_rest_ >= next_rest_) {
+      next_rest_ = samples_at_rest_ + std::size_t(width_) * std::size_t(height_);
+      change_light([&] { tracer_.take_time(); });
+    }
   }
   moved_ = moved;
   changed_ = false;
@@ -124,6 +129,7 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   fixed_seconds_ += learning * (after - fixed_seconds_);
   frame.seconds = seconds_since(start);
   seconds_since_change_ += frame.seconds;
+  samples_at_rest_ += samples_.size();
   ++frame_;
 
   frame.traced = samples_.size();
@@ -139,7 +145,7 @@ void WalkEngine::update(const SceneChanges& changes) {
   if (changes.empty()) return;
   tracer_.update(changes);
   shading_.doubt(most_outdated_samples);
-  changed_ = true;
+  changed_ = changes_ = true;
   seconds_since_change_ = 0.0;
 }
 

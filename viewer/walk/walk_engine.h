@@ -69,7 +69,10 @@ class WalkEngine {
   bool moved_ = false;
   int resting_ = 0;                  // frames since the eye or the scene moved
   bool changed_ = false;             // the scene, since the last frame
+  bool changes_ = false;             // ever
   double seconds_since_change_ = 0;  // of frames
+  std::size_t samples_at_rest_ = 0;  // since the eye or the scene moved
+  std::size_t next_rest_ = 0;        // at how many the tracer takes its time
   std::uint32_t frame_ = 0;
   double sample_seconds_;         // of one sample, as measured
   double fixed_seconds_ = 0.005;  // of what is done once a frame after tracing, as measured
