@@ -59,7 +59,9 @@ TEST(visibility, few_rays_see_what_all_see) {
         EXPECT_TRUE(normals_alike(seen.normal[k], truth.normal[k])) << "pixel " << k;
       }
       EXPECT_LE(wrong, 16) << "of " << truth.size() << " pixels in frame " << i;
-      if (i > 0) EXPECT_LT(visibility.ray_count(), truth.size() * 6 / 10);
+      if (i > 0) {
+        EXPECT_LT(visibility.ray_count(), truth.size() * 6 / 10);
+      }
     }
     visibility.see_again(tracer);
     for (std::size_t k = 0; k < truth.size(); ++k)
