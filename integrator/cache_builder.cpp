@@ -131,7 +131,8 @@ std::uint32_t CacheBuilder::record_seed(std::uint32_t record, std::uint32_t roun
   return hash_combine(hash_combine(hash_combine(seed, record_stream), record), round);
 }
 
-std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles, int stride,
+std::vector<RecordRequest> CacheBuilder::collect(const PathTracer& eye,
+                                                 const std::vector<Tile>& tiles, int stride,
                                                  int phase, float weight,
                                                  RenderStatistics& statistics) const {
   std::vector<std::vector<RecordRequest>> found(tiles.size());
@@ -155,7 +156,7 @@ std::vector<RecordRequest> CacheBuilder::collect(const std::vector<Tile>& tiles,
     if (pixels.empty()) return;
     std::vector<PixelSums> sums(1);  // of no use
     RenderStatistics counts;
-    tracer_.render_ranges(tile, pixels, sums, counts, asking);
+    eye.render_ranges(tile, pixels, sums, counts, asking);
     counts.samples = counts.cache_hits = counts.cache_misses = 0;  // none was for the picture
     const std::lock_guard lock(mutex);
     statistics.add_counts(counts);
@@ -225,7 +226,7 @@ bool CacheBuilder::fill(const std::vector<Tile>& tiles, int stride, int last_str
   for (; stride >= last_stride; stride /= 2) {
     cache_.commit(budget_);
     std::vector<RecordRequest> requests =
-        collect(tiles, stride, stride / 2 * (stride + 1), weight, statistics);
+        collect(tracer_, tiles, stride, stride / 2 * (stride + 1), weight, statistics);
     if (!make_records(requests, weight, go_on, statistics)) return false;
   }
   return true;
@@ -238,12 +239,14 @@ bool CacheBuilder::build(const std::vector<Tile>& tiles, const std::function<boo
          refine(go_on, statistics);
 }
 
-bool CacheBuilder::extend(const std::vector<Tile>& tiles, int stride, int phase, float slack,
-                          const std::function<bool()>& go_on, RenderStatistics& statistics) {
+bool CacheBuilder::extend(const PathTracer& eye, const std::vector<Tile>& tiles, int stride,
+                          int phase, float slack, const std::function<bool()>& go_on,
+                          RenderStatistics& statistics) {
   batch_size_ = hurried_batch_size;
   slack_ = slack;
   renew(renewed_first, go_on, statistics);
-  std::vector<RecordRequest> requests = collect(tiles, stride, phase, wanted_weight, statistics);
+  std::vector<RecordRequest> requests =
+      collect(eye, tiles, stride, phase, wanted_weight, statistics);
   bool all = make_records(requests, wanted_weight, go_on, statistics);
   renew(outdated_.size(), go_on, statistics);
   all = all && outdated_.empty();
@@ -252,7 +255,7 @@ bool CacheBuilder::extend(const std::vector<Tile>& tiles, int stride, int phase,
     cache_.commit(budget_);
     committed_ = cache_.size();
   }
-  return all && (slack > 1.0f || refine(go_on, statistics));
+  return all;
 }
 
 void CacheBuilder::change(const std::vector<MovedPart>& parts) {

@@ -54,12 +54,16 @@ class CacheBuilder {
   bool build(const std::vector<Tile>& tiles, const std::function<bool()>& go_on,
              RenderStatistics& statistics);
 
-  // For a view that changes: makes records that every stride-th pixel lacks, in both directions,
+  // For a view that changes: makes records that every stride-th pixel of what `eye` sees lacks, in
+  // both directions,
   // from pixel `phase` of each such block on, row by row, where no record holds for a budget that
-  // is slack times what the error asks, ≥ 1. Then, at a slack of one and while time is left, what
-  // refine() does. go_on is asked more often. As build().
-  bool extend(const std::vector<Tile>& tiles, int stride, int phase, float slack,
-              const std::function<bool()>& go_on, RenderStatistics& statistics);
+  // is slack times what the error asks, ≥ 1. go_on is asked more often. As build().
+  bool extend(const PathTracer& eye, const std::vector<Tile>& tiles, int stride, int phase,
+              float slack, const std::function<bool()>& go_on, RenderStatistics& statistics);
+
+  // Averages hemispheres, whose paths end in the cache, into records until each has enough. The
+  // first replaces what whole paths brought. As build().
+  bool refine(const std::function<bool()>& go_on, RenderStatistics& statistics);
 
   // The scene has changed, and these parts of it have moved. Records on them move along or are
   // dropped; all are made anew by extend(), those near the parts first. Not while others use the
@@ -72,16 +76,14 @@ class CacheBuilder {
  private:
   bool fill(const std::vector<Tile>& tiles, int first_stride, int last_stride, float wanted_weight,
             const std::function<bool()>& go_on, RenderStatistics& statistics);
-  // Averages hemispheres, whose paths end in the cache, into records until each has enough. The
-  // first replaces what whole paths brought.
-  bool refine(const std::function<bool()>& go_on, RenderStatistics& statistics);
   // Makes outdated records anew, at most so many.
   void renew(std::size_t most, const std::function<bool()>& go_on, RenderStatistics& statistics);
   std::uint32_t record_seed(std::uint32_t record, std::uint32_t round) const;
   // Where paths that gather light may end.
   CacheUse path_ends() const;
-  std::vector<RecordRequest> collect(const std::vector<Tile>& tiles, int stride, int phase,
-                                     float wanted_weight, RenderStatistics& statistics) const;
+  std::vector<RecordRequest> collect(const PathTracer& eye, const std::vector<Tile>& tiles,
+                                     int stride, int phase, float wanted_weight,
+                                     RenderStatistics& statistics) const;
   bool make_records(std::vector<RecordRequest>& requests, float wanted_weight,
                     const std::function<bool()>& go_on, RenderStatistics& statistics);
 

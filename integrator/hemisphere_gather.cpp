@@ -257,14 +257,21 @@ void HemisphereGather::set_radii(IrradianceRecord& r) const {
   const Color irradiance = r.light.irradiance(r.normal);
   const float brightness = mean(irradiance);
   float longest = longest_share * r.mean_distance;
+  RadiusLimit longest_limit = RadiusLimit::distance;
   if (parts_.gradient && brightness > 0.0f) {
     V2f slope(0.0f);
     for (const V2f& g : r.gradient) slope += g * (1.0f / 3.0f);
     const float length = slope.length();
-    if (length * longest > most_change * brightness) longest = most_change * brightness / length;
+    if (length * longest > most_change * brightness) {
+      longest = most_change * brightness / length;
+      longest_limit = RadiusLimit::gradient;
+    }
   }
   // A hemisphere that met no light says nothing of the light's changes.
-  if (brightness <= 0.0f) longest *= dark_share;
+  if (brightness <= 0.0f) {
+    longest *= dark_share;
+    longest_limit = RadiusLimit::darkness;
+  }
   longest /= scale_;
   const auto radius = [&](double curvature) {
     const double r4 = 4.0 * brightness / (double(pi) * curvature);
@@ -276,6 +283,7 @@ void HemisphereGather::set_radii(IrradianceRecord& r) const {
     // As if the light changed its curvature over the distance to what is seen.
     r.radius_small = r.radius_large =
         std::min(longest, radius(brightness / (double(r.mean_distance) * r.mean_distance)));
+    r.limit = r.radius_small < longest ? RadiusLimit::curvature : longest_limit;
     return;
   }
   PlaneDerivatives d;
@@ -286,6 +294,7 @@ void HemisphereGather::set_radii(IrradianceRecord& r) const {
   r.axis = frame.t * float(k.axis_x) + frame.b * float(k.axis_y);
   r.radius_small = std::min(longest, radius(k.large));
   r.radius_large = std::min({longest, radius(k.small), most_elongated * r.radius_small});
+  r.limit = r.radius_small < longest ? RadiusLimit::curvature : longest_limit;
 }
 
 IrradianceRecord HemisphereGather::make(const RecordRequest& request, const HemisphereCells& cells,

@@ -73,13 +73,16 @@ bool IrradianceCache::insert(const IrradianceRecord& record) {
   return true;
 }
 
+float IrradianceCache::least_half_axis(const IrradianceRecord& r, float footprint) const {
+  return parts_.footprint_clamp ? std::min(least_pixels * footprint, r.mean_distance) : 0.0f;
+}
+
 // 1 at the record, 0 from the rim of its ellipse on, and smooth in between.
 float IrradianceCache::weight(const IrradianceRecord& r, const CachePoint& point,
                               float scale) const {
   const float cosine = point.normal.dot(r.normal);
   if (cosine <= least_normal_cosine) return 0.0f;
-  const float least =
-      parts_.footprint_clamp ? std::min(least_pixels * point.footprint, r.mean_distance) : 0.0f;
+  const float least = least_half_axis(r, point.footprint);
   const float large = std::max(r.radius_large * scale, least);
   const float small = std::max(r.radius_small * scale, least);
   if (!(small > 0.0f)) return 0.0f;
@@ -178,6 +181,7 @@ void IrradianceCache::commit(float budget) {
   for (std::uint32_t i = 0; i < n; ++i) {
     IrradianceRecord& r = records_[i];
     r.radius_large = clamped[i];
+    if (clamped[i] < r.radius_small) r.limit = RadiusLimit::neighbour;
     r.radius_small = std::min(r.radius_small, clamped[i]);
   }
   tree_.rebuild([&](std::uint32_t i) { return reach(records_[i]); });

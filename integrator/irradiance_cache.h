@@ -56,6 +56,8 @@ class IrradianceCache {
   bool full() const;
   // How far a record must be looked for so that it serves pixels of that size at that budget.
   static float least_reach(float footprint, float budget);
+  // Half axes are not shorter where a record is used for pixels of that size, scene units.
+  float least_half_axis(const IrradianceRecord& r, float footprint) const;
   std::uint64_t bytes() const;
   const IrradianceRecord& record(std::uint32_t i) const { return records_[i]; }
 

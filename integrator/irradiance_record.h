@@ -53,6 +53,17 @@ struct SkyAndSource {
 // sky_normal: unit, of the surface, all light being above it.
 SkyAndSource split_light(const LightSum& sum, const V3f& sky_normal);
 
+// What keeps a record from being used further away than its shorter half axis.
+enum class RadiusLimit : std::uint8_t {
+  curvature,  // the error of interpolation
+  gradient,   // light would change too much
+  distance,   // of what is seen from there
+  darkness,   // no light was found, so that nothing is known of its changes
+  neighbour,  // that of a record nearby
+  pixel       // none: it is longer, so that neighbouring pixels share a record
+};
+constexpr std::size_t radius_limit_count = 6;
+
 struct IrradianceRecord {
   V3f position{0.0f};  // traced space
   V3f normal{0.0f};    // unit, interpolated, before normal maps
@@ -74,6 +85,7 @@ struct IrradianceRecord {
   float mean_distance = 0.0f;  // harmonic mean distance to what was seen, scene units
   float variance = 0.0f;       // of the mean irradiance, relative to its square
   std::uint32_t passes = 0;    // hemispheres that have been averaged
+  RadiusLimit limit = RadiusLimit::curvature;
 };
 static_assert(sizeof(IrradianceRecord) <= 200, "view-independent records stay small");
 

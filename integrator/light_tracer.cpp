@@ -195,7 +195,7 @@ bool LightTracer::start(float u_source, const V2f& u_point, float u_aim, const V
     case EmitterKind::sphere:
       normal = uniform_direction(u_point);
       area = 4.0f * pi * e.radius * e.radius;
-      out.origin = e.origin + normal * (e.radius + e.error);
+      out.origin = e.origin + normal * e.radius;
       break;
     case EmitterKind::rectangle:
     case EmitterKind::triangle: {
@@ -205,7 +205,7 @@ bool LightTracer::start(float u_source, const V2f& u_point, float u_aim, const V
       const V2f at = rectangle ? u_point : V2f(root * (1.0f - u_point.y), root * u_point.y);
       area = cross.length() * (rectangle ? 1.0f : 0.5f);
       normal = cross.normalized();
-      out.origin = e.origin + e.edge_u * at.x + e.edge_v * at.y + normal * e.error;
+      out.origin = e.origin + e.edge_u * at.x + e.edge_v * at.y;
       break;
     }
     case EmitterKind::point:
@@ -219,7 +219,9 @@ bool LightTracer::start(float u_source, const V2f& u_point, float u_aim, const V
   if (e.kind == EmitterKind::spot) {
     out.flux *= spot_falloff(e, out.direction);
   } else if (e.kind != EmitterKind::point) {
-    out.flux *= std::max(0.0f, normal.dot(out.direction));
+    const float facing = normal.dot(out.direction);
+    out.flux *= e.two_sided ? std::abs(facing) : std::max(0.0f, facing);
+    out.origin += normal * std::copysign(e.error, facing);
   }
   return max_component(out.flux) > 0.0f;
 }

@@ -547,7 +547,7 @@ void Lights::leave_caustics_to_light_paths(bool of_large_lights) {
       e.light_traced = true;
       continue;
     }
-    const bool simple = !e.two_sided && !e.varying && e.kind != EmitterKind::ellipsoid;
+    const bool simple = !e.varying && e.kind != EmitterKind::ellipsoid;
     const float size =
         e.kind == EmitterKind::sphere ? e.radius : std::max(e.edge_u.length(), e.edge_v.length());
     e.light_traced = simple && (of_large_lights || size < max_light_traced_size * scene_.radius());

@@ -6,7 +6,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -24,6 +26,10 @@ namespace lumivec {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 constexpr int tile_side = 32;  // pixels
 // Samples or rays that a thread traces at once.
@@ -43,9 +49,11 @@ constexpr std::array<float, 3> slacks = {256.0f, 16.0f, 1.0f};
 constexpr std::array<float, 2> meanwhile_slacks = {16.0f, 4096.0f};
 // Light paths of a photon map.
 constexpr std::uint64_t map_paths = 1 << 16;
-constexpr std::uint32_t map_batch = 4096;
 // Likewise before the first picture, and while the scene changes.
 constexpr std::uint64_t hurried_map_paths = map_paths / 8;
+// Light paths that are traced before time is looked at again, and those of a thread.
+constexpr std::uint64_t map_slice = 1024;
+constexpr std::uint32_t map_batch = 256;
 
 }  // namespace
 
@@ -56,7 +64,8 @@ struct LiveTracer::State {
         traced(std::in_place, scene, arena.max_concurrency()),
         lights(std::in_place, *traced),
         cache(*traced, s.validity_parts, s.cache_bytes),
-        photons(*traced) {
+        photons(std::make_unique<PhotonMap>(*traced)),
+        next_photons(std::make_unique<PhotonMap>(*traced)) {
     find_casters();
     keep_transforms();
   }
@@ -74,24 +83,48 @@ struct LiveTracer::State {
 
   bool cached() const { return settings.integrator == Integrator::light_vectors; }
 
-  // Photons are where light falls, whatever the eye sees.
-  // number: of the map, each with other paths and narrower discs than the one before.
-  void map_photons(std::uint64_t paths, std::uint32_t number) {
-    const LightTracer light_tracer(*traced, *lights, *view, settings, casters);
-    has_photons = light_tracer.active();
-    if (!has_photons) return;
+  // A map in the making; photons are where light falls, whatever the eye sees.
+  struct GrowingMap {
+    std::uint64_t first = 0;  // light path; no two maps have the same
+    std::uint64_t traced = 0;
+    std::vector<Photon> photons;
+  };
+
+  void trace_photons(std::uint64_t paths, GrowingMap& map) {
     std::vector<std::vector<Photon>> batches(paths / map_batch);
     for_each(batches.size(), [&](std::size_t i) {
       RenderStatistics counts;
-      light_tracer.trace(number * map_paths + i * map_batch, map_batch, batches[i], counts);
+      light_tracer->trace(map.first + map.traced + i * map_batch, map_batch, batches[i], counts);
     });
-    std::vector<Photon> all;
-    for (const std::vector<Photon>& some : batches) all.insert(all.end(), some.begin(), some.end());
-    statistics.photons += all.size();
+    map.traced += paths;
+    for (const std::vector<Photon>& some : batches)
+      map.photons.insert(map.photons.end(), some.begin(), some.end());
+  }
+
+  void build_photons(PhotonMap& map, GrowingMap from, std::uint32_t number) const {
     // As many photons in a disc as those of a still, which has a path for each pixel.
     const float pixels = static_cast<float>(settings.width) * static_cast<float>(settings.height);
-    photons.build(std::move(all), paths, number,
-                  std::max(1.0f, pixels / static_cast<float>(paths)));
+    map.build(std::move(from.photons), from.traced, number,
+              std::max(1.0f, pixels / static_cast<float>(from.traced)));
+  }
+
+  // What holds until gather_photons() has had its time.
+  void hurry_photons() {
+    end_building();
+    light_tracer.emplace(*traced, *lights, *view, settings, casters);
+    if (light_tracer->active()) {
+      GrowingMap few;
+      arena.execute([&] { trace_photons(hurried_map_paths, few); });
+      statistics.photons += few.photons.size();
+      build_photons(*photons, std::move(few), 0);
+    }
+    builder->set_photons(light_tracer->active() ? photons.get() : nullptr);
+    next_map = 0;
+  }
+
+  void end_building() {
+    if (building.valid()) building.get();
+    growing.reset();
   }
 
   // Up to a packet of pixels.
@@ -166,12 +199,16 @@ struct LiveTracer::State {
   std::vector<BoundingSphere> casters;
   std::vector<M44d> object_to_traced;  // of all instances
   IrradianceCache cache;
-  PhotonMap photons;
-  bool has_photons = false;
+  std::unique_ptr<PhotonMap> photons, next_photons;  // in use; being built
+  std::future<void> building;                        // of the latter
+  std::optional<LightTracer> light_tracer;
+  std::optional<GrowingMap> growing;
   bool photons_outdated = false;
   std::uint32_t next_map = 0;  // of full ones
   std::optional<CameraView> view, last_view;
   std::optional<PathTracer> tracer;  // of that view
+  std::optional<CameraView> expected_view;
+  std::optional<PathTracer> expected_tracer;  // of that view
   std::optional<CacheBuilder> builder;
   std::vector<Tile> tiles;
   int tiles_across = 0;
@@ -208,18 +245,50 @@ void LiveTracer::set_view(const Camera& camera, int width, int height) {
     s.photons_outdated = true;
   }
   if (s.builder && s.photons_outdated) {
-    s.arena.execute([&] { s.map_photons(hurried_map_paths, 0); });
-    s.builder->set_photons(s.has_photons ? &s.photons : nullptr);
+    s.hurry_photons();
     s.photons_outdated = false;
-    s.next_map = 0;
   }
 }
 
-void LiveTracer::take_time() {
+void LiveTracer::expect_view(const Camera* camera) {
   State& s = *state_;
-  if (!s.builder || !s.has_photons) return;
-  s.arena.execute([&] { s.map_photons(map_paths, s.next_map); });
-  if (s.next_map++ == 0) ++s.generation;
+  s.expected_tracer.reset();
+  s.expected_view.reset();
+  if (!camera || !s.builder) return;
+  s.expected_view.emplace(*camera, *s.traced, s.settings.width, s.settings.height);
+  s.expected_tracer.emplace(*s.traced, *s.lights, *s.expected_view, s.settings);
+}
+
+bool LiveTracer::gather_photons(double seconds, bool another) {
+  State& s = *state_;
+  if (!s.builder || !s.light_tracer->active()) return false;
+  const Clock::time_point start = Clock::now();
+  const auto left = [&] { return seconds - seconds_since(start); };
+  bool renewed = false;
+  if (s.building.valid()) {
+    // A view that rests has nothing better to do.
+    const std::chrono::duration<double> patience(another ? seconds : 0.0);
+    if (s.building.wait_for(patience) != std::future_status::ready) return false;
+    s.building.get();
+    std::swap(s.photons, s.next_photons);
+    s.builder->set_photons(s.photons.get());
+    if (s.next_map++ == 0) ++s.generation;
+    renewed = true;
+  }
+  if (!s.growing && (s.next_map == 0 || (another && !renewed)))
+    s.growing = {s.next_map * map_paths, 0, {}};
+  if (!s.growing) return renewed;
+  s.arena.execute([&] {
+    while (s.growing->traced < map_paths && left() > 0.0) s.trace_photons(map_slice, *s.growing);
+  });
+  if (s.growing->traced < map_paths) return renewed;
+  s.statistics.photons += s.growing->photons.size();
+  s.building = std::async(std::launch::async,
+                          [&s, map = std::move(*s.growing), number = s.next_map]() mutable {
+                            s.build_photons(*s.next_photons, std::move(map), number);
+                          });
+  s.growing.reset();
+  return renewed;
 }
 
 void LiveTracer::update(const SceneChanges& changes) {
@@ -235,6 +304,9 @@ void LiveTracer::update(const SceneChanges& changes) {
       before.push_back(s.object_to_traced[static_cast<std::size_t>(i)]);
     }
   }
+  s.end_building();
+  s.expected_tracer.reset();
+  s.light_tracer.reset();
   s.lights.reset();
   s.arena.execute([&] { s.traced.emplace(scene, s.arena.max_concurrency(), &frame); });
   s.lights.emplace(*s.traced);
@@ -343,20 +415,19 @@ void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
   });
 }
 
-bool LiveTracer::improve(double seconds) {
+bool LiveTracer::improve(double seconds, double refining_seconds) {
   State& s = *state_;
   if (!s.builder) return true;
   const Clock::time_point start = Clock::now();
-  const auto go_on = [&] {
-    return std::chrono::duration<double>(Clock::now() - start).count() < seconds;
-  };
+  const auto passed = [&] { return seconds_since(start); };
+  const auto go_on = [&] { return passed() < seconds; };
   bool all = true;
   while (true) {
     s.phase = (s.phase + phase_step) % (record_stride * record_stride);
     const std::uint32_t before = s.cache.size();
     s.arena.execute([&] {
-      all =
-          s.builder->extend(s.tiles, record_stride, s.phase, slacks[s.level], go_on, s.statistics);
+      all = s.builder->extend(*s.tracer, s.tiles, record_stride, s.phase, slacks[s.level], go_on,
+                              s.statistics);
     });
     // What the eye comes to see later is made at the finest level at once.
     const bool enough = s.cache.size() - before <= before / 32;
@@ -366,13 +437,48 @@ bool LiveTracer::improve(double seconds) {
       ++s.generation;
     }
   }
+  if (all && s.expected_tracer && go_on()) {
+    s.arena.execute([&] {
+      s.builder->extend(*s.expected_tracer, s.tiles, record_stride, s.phase, slacks[s.level], go_on,
+                        s.statistics);
+    });
+  }
+  if (all && s.level + 1 == slacks.size()) {
+    const double end = std::min(seconds, passed() + refining_seconds);
+    s.arena.execute([&] { all = s.builder->refine([&] { return passed() < end; }, s.statistics); });
+  }
   if (all && s.cache.size() > s.settled + s.settled / 16) {
     s.settled = s.cache.size();
     ++s.generation;
   }
   s.statistics.records = s.cache.size();
-  s.statistics.cache_bytes = s.cache.bytes() + s.photons.bytes();
+  s.statistics.cache_bytes = s.cache.bytes() + s.photons->bytes();
   return all;
+}
+
+std::vector<RecordMark> LiveTracer::records() const {
+  const State& s = *state_;
+  std::vector<RecordMark> marks;
+  if (!s.builder || !s.view) return marks;
+  const float scale = std::sqrt(std::sqrt(s.builder->use().budget));
+  const V3f eye = s.view->plane().eye;
+  const std::uint32_t count = s.cache.size();
+  marks.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const IrradianceRecord& r = s.cache.record(i);
+    const float least = s.cache.least_half_axis(r, s.view->footprint((r.position - eye).length()));
+    const V3f other = r.normal.cross(r.axis);
+    RecordMark mark;
+    mark.position = origin() + V3d(r.position);
+    mark.normal = V3d(r.normal);
+    mark.half_axis = {V3d(r.axis * std::max(least, scale * r.radius_small)),
+                      V3d(other * std::max(least, scale * r.radius_large))};
+    mark.limit = scale * r.radius_small < least ? RadiusLimit::pixel : r.limit;
+    mark.noise = std::sqrt(std::max(0.0f, r.variance));
+    mark.provisional = r.passes == 0;
+    marks.push_back(mark);
+  }
+  return marks;
 }
 
 unsigned LiveTracer::generation() const {

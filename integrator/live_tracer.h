@@ -9,6 +9,7 @@
 
 #include "integrator/camera_view.h"
 #include "integrator/framebuffer.h"
+#include "integrator/record_mark.h"
 #include "integrator/settings.h"
 #include "integrator/visible_surfaces.h"
 #include "loader/scene.h"
@@ -53,6 +54,10 @@ class LiveTracer {
   // The camera that the next calls are about, and the picture's size, pixels.
   void set_view(const Camera& camera, int width, int height);
 
+  // What the eye is expected to see soon, until the next call: improve() makes records for it in
+  // the time that the present view leaves. Null: nothing is.
+  void expect_view(const Camera* camera);
+
   // Through the middles of all pixels.
   void see(VisibleSurfaces& seen);
   // Through the middles of these alone, best neighbours together; seen must have its size.
@@ -71,17 +76,22 @@ class LiveTracer {
   void trace(const std::vector<LiveRequest>& requests, bool centered,
              std::vector<LiveSample>& samples);
 
-  // For a view that rests, each time its pixels have had about a sample: does what takes longer
-  // than a frame. Without it caustics do not converge.
-  void take_time();
+  // Traces light paths for at most about so long; light-vectors alone. The few of the first view
+  // are to be replaced by as many as a still has, which takes several calls; after that, where
+  // `another` asks for it, by as many others in narrower discs, so that caustics converge. True:
+  // new ones are in use since.
+  bool gather_photons(double seconds, bool another);
 
-  // Makes cached light that the view lacks for at most so long; light-vectors alone. False: time
-  // was too short for all of it.
-  bool improve(double seconds);
+  // Makes cached light that the view lacks for at most so long, and then what there is better for
+  // at most the other time out of it; light-vectors alone. False: time was too short for all of it.
+  bool improve(double seconds, double refining_seconds);
 
   // Another number whenever cached light has become better as a whole, so that samples taken before
   // are worth less.
   unsigned generation() const;
+
+  // All records of indirect light, as the present view uses them.
+  std::vector<RecordMark> records() const;
 
   const V3d& origin() const;  // world space
   const RenderStatistics& statistics() const;

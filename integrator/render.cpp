@@ -406,8 +406,7 @@ class StillRender {
     std::uint32_t done = 0;
     const std::uint32_t even = std::min(target_, even_samples);
     while (done < target_ && !stop_) {
-      if (by_time && builder_ && done >= even &&
-          statistics_.seconds_cache < 0.5 * seconds_since(start_)) {
+      if (by_time && done >= even && cache_should_improve(cache_error)) {
         cache_error *= timed_error_step;
         build_cache(cache_error);
         if (stop_) break;
@@ -433,6 +432,15 @@ class StillRender {
   }
 
   bool cached() const { return builder_ || paper_builder_; }
+
+  // In a render that is limited by time, whether the error of cached light shows beside the noise
+  // of samples, and there is time to use what is made.
+  bool cache_should_improve(double cache_error) const {
+    if (!builder_ || cache_error <= picture_error_) return false;
+    const double passed = seconds_since(start_);
+    return statistics_.seconds_cache < 0.5 * passed &&
+           statistics_.seconds_cache < settings_.seconds - passed;
+  }
 
   // Records for that relative error: their reach follows from it, and how many hemispheres each is
   // the mean of.

@@ -47,6 +47,7 @@ inline bool normals_alike(std::uint32_t a, std::uint32_t b) {
 // Row by row.
 struct VisibleSurfaces {
   static constexpr float nothing = std::numeric_limits<float>::infinity();
+  static constexpr std::int32_t unknown = -2;  // an object, where nobody has looked
 
   std::vector<float> depth;           // along the view axis, scene units; nothing: nothing
   std::vector<std::uint32_t> normal;  // packed, geometric, on the eye's side

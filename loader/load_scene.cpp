@@ -6,6 +6,7 @@
 #include "loader/byte_source.h"
 #include "loader/error.h"
 #include "loader/gltf/read_gltf.h"
+#include "loader/pov/read_pov.h"
 
 namespace lumivec {
 namespace {
@@ -27,6 +28,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options,
   const ByteSource bytes = open(file);
   try {
     if (gltf::looks_like_gltf(bytes)) return gltf::read_gltf(file, bytes, options, report);
+    if (pov::looks_like_pov(file)) return pov::read_pov(file, bytes, options, report);
   } catch (const SceneError&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -37,7 +39,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options,
     throw SceneError(file.string(), "", error.what(), "check that the files can be read");
   }
   throw SceneError(file.string(), "", "is no scene file that lumivec knows",
-                   "give a glTF 2.0 file, .gltf or .glb");
+                   "give a glTF 2.0 file, .gltf or .glb, or a POV-Ray scene, .pov");
 }
 
 }  // namespace lumivec

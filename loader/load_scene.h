@@ -11,9 +11,23 @@
 
 namespace lumivec {
 
+// Bounds on what a POV-Ray scene, which is a program, may take.
+struct LanguageLimits {
+  std::uint64_t max_steps = 200'000'000;   // directives, macro calls and passes of loops: minutes
+  std::uint32_t max_macro_depth = 10'000;  // macros and includes within each other
+  std::uint32_t max_nesting = 400;         // blocks and brackets within each other; each takes some
+                                           // kilobytes of the stack
+  std::uint32_t max_depth = 2000;  // declared things that hold each other, which loops can chain
+  std::uint64_t max_parts = 50'000'000;  // of one object, function or texture, each as often as it
+                                         // is met
+  std::uint64_t max_file_bytes = std::uint64_t{1} << 30;  // of one file that the scene reads
+};
+
 struct LoadOptions {
   std::string scene;  // name or index of the scene in a file of several; empty: the file's default
   bool allow_outside_files = false;  // may files outside the scene file's folder be read?
+  std::vector<std::filesystem::path> include_paths;  // POV-Ray: folders searched for includes
+  LanguageLimits language;
   std::uint64_t max_bytes = std::uint64_t{8}
                             << 30;  // bound on the sum of what is decoded: geometry, images
 };
@@ -25,7 +39,7 @@ struct LoadWarning {
 };
 
 struct LoadReport {
-  std::string format;                    // "glTF 2.0", "glTF 2.0 binary"
+  std::string format;                    // "glTF 2.0", "glTF 2.0 binary", "POV-Ray 3.7"
   std::string generator;                 // as the file says
   std::vector<std::string> scene_names;  // all scenes of the file, in order
   int scene = 0;                         // which one was loaded

@@ -310,6 +310,21 @@ TEST(caustic, eye_paths_alone_bring_the_same_over_glossy_metal) {
   expect_same_by_eye_paths(scene, cornell_camera(), 512, 0.1);
 }
 
+// Light goes both ways from a panel without a back, and from a ball.
+TEST(caustic, eye_paths_alone_bring_the_same_beside_two_sided_lamps) {
+  Scene scene;
+  add_mesh(scene, quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}), diffuse(Color(albedo)));
+  add_mesh(scene, quad({-2, 0, -1}, {4, 0, 0}, {0, 3, 0}), diffuse(Color(albedo)));
+  add_mesh(scene, quad({0, 0.5f, -0.3f}, {0, 0.6f, 0}, {0, 0, 0.6f}), emitter(Color(5.0f), true));
+  add_sphere(scene, 0.15f, emitter(Color(3.0f, 4.0f, 6.0f), true), translation({0, 1.4, 0.2}));
+  add_sphere(scene, 0.3f, glass(1.5f), translation({0.7, 0.5, 0.2}));
+  add_sphere(scene, 0.3f, glass(1.5f), translation({-0.7, 0.5, 0.1}));
+  const Camera camera = orthographic_camera({0, 3, 4}, {0, 0.2, 0}, 1.2f);
+  const Framebuffer picture = render_clean(scene, camera, square(32, 64));
+  EXPECT_GT(mean_of(picture.terms[unsigned(Term::caustic)]).value, 0.001);
+  expect_same_by_eye_paths(scene, camera, 512, 0.1);
+}
+
 // Of the environment, light paths bring the caustics of the sun alone.
 TEST(caustic, eye_paths_alone_bring_the_same_under_a_sun) {
   Scene scene;

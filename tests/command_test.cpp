@@ -88,7 +88,7 @@ TEST_F(Command, TellsItsVersion) {
 }
 TEST_F(Command, ExplainsItself) {
   const std::string help = run({"help"}).out;
-  for (const char* word : {"render", "walk", "info", "compare"}) {
+  for (const char* word : {"view", "render", "walk", "info", "compare"}) {
     EXPECT_NE(help.find(word), std::string::npos) << help;
   }
   EXPECT_EQ(run({"--help"}).out, help);
@@ -128,18 +128,17 @@ TEST_F(Command, ExplainsACommand) {
 }
 
 TEST_F(Command, NeedsACommand) {
-  expect_usage_error(
-      {}, "no command is given; write: lumivec render SCENE -o OUT.exr, or lumivec --help");
-}
-TEST_F(Command, HasNoWindowYet) {
-  expect_usage_error({"quad.gltf"},
-                     "quad.gltf: the window is not part of this version; write: lumivec render "
-                     "quad.gltf -o OUT.png");
+  expect_usage_error({}, "no command is given; write: lumivec view SCENE, or lumivec --help");
 }
 TEST_F(Command, SuggestsACommand) {
   expect_usage_error({"rendr", "quad.gltf"}, "there is no command 'rendr'; did you mean 'render'?");
   expect_usage_error({"help", "compar"},
                      "help: there is no command 'compar'; did you mean 'compare'?");
+}
+TEST_F(Command, TellsTheKeysOfTheWindow) {
+  const std::string help = run({"view", "--help"}).out;
+  for (const char* word : {"--pixel-size", "--look", "W A S D", "Shift+1 to 5", "Ctrl+S"})
+    EXPECT_NE(help.find(word), std::string::npos) << word;
 }
 TEST_F(Command, SuggestsAnOption) {
   expect_usage_error({"render", "quad.gltf", "-o", "a.exr", "--sise", "64"},
@@ -148,6 +147,8 @@ TEST_F(Command, SuggestsAnOption) {
                      "render: there is no option '--env'; did you mean '--environment'?");
   expect_usage_error({"info", "quad.gltf", "--jsno"},
                      "info: there is no option '--jsno'; did you mean '--json'?");
+  expect_usage_error({"quad.gltf", "--sise", "64"},
+                     "view: there is no option '--sise'; did you mean '--size'?");
   expect_usage_error({"--vesion"},
                      "there is no option '--vesion' before a command; did you mean '--version'?");
 }

@@ -63,6 +63,10 @@ TEST(Display, TakesWhatIsNotFiniteForBlack) {
   EXPECT_EQ(displayed_gray(aces, std::numeric_limits<float>::infinity()), black);
   EXPECT_EQ(displayed_gray(aces, 1e38f, 10.0), black);
 }
+TEST(Display, ShowsTheBrightestAsWhite) {
+  EXPECT_GT(displayed_gray(aces, 1e30f), 0.99f);
+  EXPECT_GT(displayed_gray(plain, 1e30f), 0.99f);
+}
 TEST(Display, TreatsAllPixelsAlike) {
   Picture picture(37, 29, Color(0.18f));
   DisplayTransform(aces).apply(picture, 0.0);

@@ -63,7 +63,8 @@ TEST(visibility, few_rays_see_what_all_see) {
         EXPECT_LT(visibility.ray_count(), truth.size() * 6 / 10);
       }
     }
-    visibility.see_again(tracer);
+    std::vector<std::uint32_t> others;
+    visibility.see_again(tracer, others);
     for (std::size_t k = 0; k < truth.size(); ++k)
       EXPECT_EQ(visibility.now().object[k], truth.object[k]) << "guesses end at rest: " << k;
   }

@@ -9,6 +9,7 @@
 #include "viewer/commands/compare.h"
 #include "viewer/commands/info.h"
 #include "viewer/commands/render.h"
+#include "viewer/commands/view.h"
 #include "viewer/commands/walk.h"
 #include "viewer/errors.h"
 #include "viewer/suggestion.h"
@@ -47,11 +48,13 @@ struct Commands {
                "lumivec"};
   RenderOptions render_options;
   WalkOptions walk_options;
+  ViewOptions view_options;
   InfoOptions info_options;
   CompareOptions compare_options;
   std::string help_topic;
   CLI::App* render = nullptr;
   CLI::App* walk = nullptr;
+  CLI::App* view = nullptr;
   CLI::App* info = nullptr;
   CLI::App* compare = nullptr;
   CLI::App* help = nullptr;
@@ -62,6 +65,9 @@ struct Commands {
     app.set_version_flag("--version", version_text, "Print the version");
     app.require_subcommand(0, 1);
     app.footer("lumivec help COMMAND tells the options of a command.");
+    view = app.add_subcommand("view", "Look at a scene in a window: lumivec SCENE does, too");
+    add_view_options(*view, view_options);
+    view->footer(view_footer());
     render = app.add_subcommand("render", "Render a scene file to picture files");
     add_render_options(*render, render_options);
     render->footer(
@@ -86,13 +92,15 @@ struct Commands {
     help->add_option("COMMAND", help_topic, "The command to explain")->type_name("");
     // What nobody expects is looked at after parsing, to suggest what was meant.
     app.allow_extras();
-    for (CLI::App* command : {render, walk, info, compare, help}) {
+    for (CLI::App* command : {view, render, walk, info, compare, help}) {
       command->allow_extras();
       command->group("Commands");
     }
   }
 
-  static std::vector<std::string> names() { return {"render", "walk", "info", "compare", "help"}; }
+  static std::vector<std::string> names() {
+    return {"view", "render", "walk", "info", "compare", "help"};
+  }
 };
 
 std::string without_dashes(const std::string& text) {
@@ -145,8 +153,8 @@ int explain(Commands& commands) {
                                                          CLI::AppFormatMode::Normal);
     return exit_success;
   }
-  for (CLI::App* command :
-       {commands.render, commands.walk, commands.info, commands.compare, commands.help}) {
+  for (CLI::App* command : {commands.view, commands.render, commands.walk, commands.info,
+                            commands.compare, commands.help}) {
     if (command->get_name() != topic) continue;
     std::cout << command->help();
     return exit_success;
@@ -158,21 +166,13 @@ int explain(Commands& commands) {
 [[noreturn]] void refuse_without_command(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining();
   if (words.empty()) {
-    throw UsageError(
-        "no command is given; write: lumivec render SCENE -o OUT.exr, or lumivec --help");
+    throw UsageError("no command is given; write: lumivec view SCENE, or lumivec --help");
   }
   const auto word = std::find_if_not(words.begin(), words.end(), is_option);
   if (word == words.end()) {
     const auto near = closest(without_dashes(words.front()), {"help", "version"});
     throw UsageError("there is no option '" + words.front() + "' before a command; " +
                      (near ? "did you mean '--" + *near + "'?" : "see lumivec --help"));
-  }
-  std::error_code error;
-  const bool is_file =
-      word->find_first_of("./") != std::string::npos || std::filesystem::exists(*word, error);
-  if (is_file) {
-    throw UsageError(*word + ": the window is not part of this version; write: lumivec render " +
-                     *word + " -o OUT.png");
   }
   throw UsageError("there is no command '" + *word + "'; " + suggestion(*word, Commands::names()));
 }
@@ -190,7 +190,20 @@ std::string quoted(const std::vector<std::string>& arguments) {
   return text;
 }
 
-int run(const std::vector<std::string>& arguments) {
+// `lumivec SCENE …` is `lumivec view SCENE …`.
+std::vector<std::string> with_command(std::vector<std::string> arguments) {
+  if (arguments.empty() || is_option(arguments.front())) return arguments;
+  const std::string& word = arguments.front();
+  const std::vector<std::string> names = Commands::names();
+  if (std::find(names.begin(), names.end(), word) != names.end()) return arguments;
+  std::error_code error;
+  if (word.find_first_of("./") != std::string::npos || std::filesystem::exists(word, error))
+    arguments.insert(arguments.begin(), "view");
+  return arguments;
+}
+
+int run(const std::vector<std::string>& given) {
+  const std::vector<std::string> arguments = with_command(given);
   Commands commands;
   commands.render_options.command = commands.walk_options.command = quoted(arguments);
   try {
@@ -205,11 +218,15 @@ int run(const std::vector<std::string>& arguments) {
     throw UsageError(parse_error_text(error));
   }
 
-  for (CLI::App* command :
-       {commands.render, commands.walk, commands.info, commands.compare, commands.help}) {
+  for (CLI::App* command : {commands.view, commands.render, commands.walk, commands.info,
+                            commands.compare, commands.help}) {
     if (*command) refuse_extras(*command, command->get_name());
   }
   if (*commands.help) return explain(commands);
+  if (*commands.view) {
+    check_view_options(*commands.view, commands.view_options);
+    return run_view(commands.view_options);
+  }
   if (*commands.render) {
     check_render_options(*commands.render, commands.render_options);
     return run_render(commands.render_options);

@@ -37,16 +37,29 @@ struct DisplayTransform::Processor {
   OCIO::ConstCPUProcessorRcPtr cpu;
 };
 
-DisplayTransform::DisplayTransform(const DisplayOptions& options) {
+DisplayOptions find_display(const DisplayOptions& options) {
   const OCIO::ConstConfigRcPtr config = load_ocio_config(options.config);
-  display_ = options.display.empty()
-                 ? config->getDefaultDisplay()
-                 : find_name("--display", options.display, display_names(config), "display");
-  view_ = options.view.empty() ? config->getDefaultView(display_.c_str())
-                               : find_name("--view", options.view, view_names(config, display_),
-                                           "view of display '" + display_ + "'");
+  DisplayOptions found = options;
+  found.display = options.display.empty()
+                      ? config->getDefaultDisplay()
+                      : find_name("--display", options.display, display_names(config), "display");
+  found.view = options.view.empty()
+                   ? config->getDefaultView(found.display.c_str())
+                   : find_name("--view", options.view, view_names(config, found.display),
+                               "view of display '" + found.display + "'");
+  if (!options.look.empty()) {
+    const std::vector<std::string> looks = look_names(config);
+    if (looks.empty()) throw UsageError("--look: the configuration has no looks; leave it out");
+    found.look = find_name("--look", options.look, looks, "look");
+  }
+  return found;
+}
+
+DisplayTransform::DisplayTransform(const DisplayOptions& options) : names_(find_display(options)) {
+  const OCIO::ConstConfigRcPtr config = load_ocio_config(options.config);
   processor_ = std::make_unique<Processor>();
-  processor_->cpu = display_processor(config, display_, view_)->getDefaultCPUProcessor();
+  processor_->cpu =
+      display_processor(config, names_.display, names_.view, names_.look)->getDefaultCPUProcessor();
 }
 
 DisplayTransform::~DisplayTransform() = default;
@@ -54,14 +67,14 @@ DisplayTransform::DisplayTransform(DisplayTransform&&) noexcept = default;
 DisplayTransform& DisplayTransform::operator=(DisplayTransform&&) noexcept = default;
 
 bool DisplayTransform::is_srgb() const {
-  return same_but_for_case(display_.substr(0, 4), "sRGB");
+  return same_but_for_case(names_.display.substr(0, 4), "sRGB");
 }
 
 void DisplayTransform::apply(Picture& picture, double exposure) const {
   const float scale = float(std::exp2(exposure));
   const auto clean = [scale](float v) {
     const float exposed = v * scale;
-    return std::isfinite(exposed) ? exposed : 0.0f;
+    return std::isfinite(exposed) ? std::clamp(exposed, -most_displayed, most_displayed) : 0.0f;
   };
   tbb::parallel_for(tbb::blocked_range<int>(0, picture.height), [&](const auto& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y) {

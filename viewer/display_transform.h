@@ -16,12 +16,21 @@ struct DisplayOptions {
   std::string config;
   std::string display;
   std::string view;
+  std::string look = {};  // empty: those that the view has
 };
+
+// The same with the names that the configuration has. Throws as DisplayTransform's constructor.
+DisplayOptions find_display(const DisplayOptions& options);
+
+// Exposed values are taken to lie between this and its opposite: far brighter than any view can
+// tell, and what half precision holds. Beyond 1e20 or so the arithmetic of views overflows.
+constexpr float most_displayed = 65504.0f;
 
 class DisplayTransform {
  public:
-  // Display and view names match whatever their case. Throws DisplayError (display_error.h) for a
-  // configuration that cannot be used, and UsageError for a display or view that it does not hold.
+  // Names match whatever their case. Throws DisplayError (display_error.h) for a
+  // configuration that cannot be used, and UsageError for a display, view or look that it does not
+  // hold.
   explicit DisplayTransform(const DisplayOptions& options);
   ~DisplayTransform();
   DisplayTransform(DisplayTransform&&) noexcept;
@@ -32,15 +41,14 @@ class DisplayTransform {
   // scene-linear values.
   void apply(Picture& picture, double exposure) const;
 
-  const std::string& display() const { return display_; }
-  const std::string& view() const { return view_; }
+  const std::string& display() const { return names_.display; }
+  const std::string& view() const { return names_.view; }
   bool is_srgb() const;  // does the display take sRGB?
 
  private:
   struct Processor;  // keeps OpenColorIO's headers out of this one
   std::unique_ptr<Processor> processor_;
-  std::string display_;
-  std::string view_;
+  DisplayOptions names_;
 };
 
 }  // namespace lumivec

@@ -81,25 +81,41 @@ std::vector<std::string> view_names(const OCIO::ConstConfigRcPtr& config,
   return names;
 }
 
+std::vector<std::string> look_names(const OCIO::ConstConfigRcPtr& config) {
+  std::vector<std::string> names;
+  for (int i = 0; i < config->getNumLooks(); ++i) names.emplace_back(config->getLookNameByIndex(i));
+  return names;
+}
+
 OCIO::ConstProcessorRcPtr display_processor(const OCIO::ConstConfigRcPtr& config,
-                                            const std::string& display, const std::string& view) {
+                                            const std::string& display, const std::string& view,
+                                            const std::string& look) {
   try {
     const std::string named = linear_rec709_name(config);
+    const std::string source = named.empty() ? OCIO::ROLE_SCENE_LINEAR : named;
+    const bool bridged = named.empty() && config->hasRole(OCIO::ROLE_INTERCHANGE_SCENE);
+    const OCIO::GroupTransformRcPtr all =
+        bridged ? OCIO::Config::GetProcessorFromConfigs(load_builtin_config(), "lin_rec709", config,
+                                                        OCIO::ROLE_SCENE_LINEAR)
+                      ->createGroupTransform()
+                : OCIO::GroupTransform::Create();
+    if (!look.empty()) {
+      const OCIO::LookTransformRcPtr looked = OCIO::LookTransform::Create();
+      looked->setSrc(source.c_str());
+      looked->setDst(source.c_str());
+      looked->setLooks(look.c_str());
+      all->appendTransform(looked);
+    }
     const OCIO::DisplayViewTransformRcPtr to_display = OCIO::DisplayViewTransform::Create();
-    to_display->setSrc(named.empty() ? OCIO::ROLE_SCENE_LINEAR : named.c_str());
+    to_display->setSrc(source.c_str());
     to_display->setDisplay(display.c_str());
     to_display->setView(view.c_str());
-    if (!named.empty() || !config->hasRole(OCIO::ROLE_INTERCHANGE_SCENE)) {
-      return config->getProcessor(to_display);
-    }
-
-    const OCIO::ConstProcessorRcPtr into_config = OCIO::Config::GetProcessorFromConfigs(
-        load_builtin_config(), "lin_rec709", config, OCIO::ROLE_SCENE_LINEAR);
-    const OCIO::GroupTransformRcPtr both = into_config->createGroupTransform();
-    both->appendTransform(to_display);
-    return config->getProcessor(both);
+    to_display->setLooksBypass(!look.empty());
+    all->appendTransform(to_display);
+    return config->getProcessor(all);
   } catch (const OCIO::Exception& error) {
-    throw DisplayError("display '" + display + "', view '" + view + "': cannot be computed: " +
+    throw DisplayError("display '" + display + "', view '" + view + "'" +
+                       (look.empty() ? "" : ", look '" + look + "'") + ": cannot be computed: " +
                        one_line(error.what()) + "; choose another --view or --display");
   }
 }

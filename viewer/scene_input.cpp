@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "loader/animate.h"
+#include "viewer/camera_text.h"
 #include "viewer/errors.h"
 
 namespace lumivec {
@@ -77,8 +78,9 @@ void pose(Scene& scene, const PoseChoice& choice) {
   pose_scene(scene, choose_animation(scene, "--at", choice.animation), *choice.seconds);
 }
 
-const Camera& choose_camera(const Scene& scene, const std::string& wanted) {
+Camera choose_camera(const Scene& scene, const std::string& wanted) {
   if (wanted.empty()) return scene.cameras.front();
+  if (is_camera_text(wanted)) return parse_camera_text("--camera", wanted, scene.cameras.front());
   std::vector<std::string> names;
   for (const Camera& camera : scene.cameras) names.push_back(camera.name);
   return scene.cameras[std::size_t(find_by_name_or_index("--camera", wanted, names, "camera"))];

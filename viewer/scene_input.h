@@ -39,8 +39,9 @@ Scene load_lit_scene(const std::filesystem::path& file, const LoadOptions& optio
                      const EnvironmentChoice& environment,
                      const std::function<void(const std::string&)>& warn);
 
-// wanted: a name or an index; empty: the first. Throws UsageError.
-const Camera& choose_camera(const Scene& scene, const std::string& wanted);
+// wanted: a name, an index or a view as camera_text.h has it, whose other properties are the first
+// camera's; empty: the first. Throws UsageError.
+Camera choose_camera(const Scene& scene, const std::string& wanted);
 
 // The picture's size where the user leaves it open.
 PictureSize size_for(const Camera& camera);

@@ -10,8 +10,53 @@ CLI::Option* add_value_option(CLI::App& app, const std::string& names,
   return app.add_option_function<std::string>(names, read, description)->type_name(value_name);
 }
 
+namespace {
+
+// Of POV-Ray scenes, which are programs.
+void add_language_options(CLI::App& app, LoadOptions& options) {
+  constexpr double most = 1e18;
+  const std::string group = "POV-Ray scenes";
+  app.add_option_function<std::vector<std::string>>(
+         "--include-path",
+         [&options](const std::vector<std::string>& folders) {
+           options.include_paths.assign(folders.begin(), folders.end());
+         },
+         "Folder that includes are searched in; may be repeated")
+      ->type_name("FOLDER")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  const auto bound = [&](const std::string& name, const std::string& description, double least,
+                         double largest, auto& value) {
+    add_value_option(app, name, "N", description,
+                     [name, least, largest, &value](const std::string& text) {
+                       value = static_cast<std::decay_t<decltype(value)>>(
+                           parse_number(name, text, least, largest));
+                     })
+        ->group(group);
+  };
+  LanguageLimits& limits = options.language;
+  bound("--max-steps", "Bound on directives, macro calls and passes of loops [200000000]", 1.0,
+        most, limits.max_steps);
+  bound("--max-recursion", "Bound on macros within macros [10000]", 1.0, 1e6,
+        limits.max_macro_depth);
+  bound("--max-nesting", "Bound on blocks and brackets within each other [400]", 1.0, 2000.0,
+        limits.max_nesting);
+  bound("--max-chain", "Bound on declared things that hold each other [2000]", 1.0, 5000.0,
+        limits.max_depth);
+  bound("--max-parts", "Bound on the parts of one object, function or texture [50000000]", 1.0,
+        most, limits.max_parts);
+  bound("--max-bytes", "Bound on the memory that the scene takes [8589934592]", 1.0, most,
+        options.max_bytes);
+  bound("--max-file-size", "Bound on each file's bytes [1073741824]", 1.0, most,
+        limits.max_file_bytes);
+}
+
+}  // namespace
+
 void add_scene_options(CLI::App& app, std::filesystem::path& file, LoadOptions& options) {
-  add_value_option(app, "SCENE", "", "Scene file: glTF 2.0 (.gltf, .glb)",
+  add_value_option(app, "SCENE", "", "Scene file: glTF 2.0 (.gltf, .glb) or POV-Ray (.pov)",
                    [&file](const std::string& text) { file = text; });
   add_value_option(app, "--scene", "NAME|INDEX",
                    "Which scene of a file of several [the file's default]",
@@ -20,6 +65,7 @@ void add_scene_options(CLI::App& app, std::filesystem::path& file, LoadOptions& 
   app.add_flag("--allow-outside-files", options.allow_outside_files,
                "Let the scene read files outside its own folder")
       ->group("Scene");
+  add_language_options(app, options);
 }
 
 void add_display_options(CLI::App& app, bool& automatic_exposure, double& exposure,
@@ -40,6 +86,9 @@ void add_display_options(CLI::App& app, bool& automatic_exposure, double& exposu
       ->group(group);
   add_value_option(app, "--view", "NAME", "View on that display [the configuration's first]",
                    [&options](const std::string& text) { options.view = text; })
+      ->group(group);
+  add_value_option(app, "--look", "NAME", "Look of the configuration [the view's own]",
+                   [&options](const std::string& text) { options.look = text; })
       ->group(group);
   add_value_option(app, "--ocio", "FILE|builtin",
                    "OpenColorIO configuration [environment variable OCIO, else the built-in ACES]",

@@ -18,10 +18,11 @@ CLI::Option* add_value_option(CLI::App& app, const std::string& names,
                               const std::string& value_name, const std::string& description,
                               const std::function<void(const std::string&)>& read);
 
-// The scene file and how it is read: SCENE, --scene, --allow-outside-files.
+// The scene file and how it is read: SCENE, --scene, --allow-outside-files, and what POV-Ray scenes
+// need: --include-path and bounds.
 void add_scene_options(CLI::App& app, std::filesystem::path& file, LoadOptions& options);
 
-// --exposure, --display, --view, --ocio.
+// --exposure, --display, --view, --look, --ocio.
 void add_display_options(CLI::App& app, bool& automatic_exposure, double& exposure,
                          DisplayOptions& options);
 

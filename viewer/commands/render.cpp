@@ -190,7 +190,7 @@ int run_render(const RenderOptions& options) {
   Scene scene = load_lit_scene(options.scene_file, options.load, options.environment,
                                [&](const std::string& warning) { warnings.add(warning); });
   pose(scene, options.pose);
-  const Camera& camera = choose_camera(scene, options.camera);
+  const Camera camera = choose_camera(scene, options.camera);
   report.scene_name = scene.name;
   report.camera = camera.name;
   const PictureSize size = options.size ? *options.size : size_for(camera);

@@ -183,8 +183,11 @@ fs::path place(const fs::path& file) {
 
 void add_render_options(CLI::App& app, RenderOptions& options) {
   add_scene_options(app, options.scene_file, options.load);
-  add_value_option(app, "--camera", "NAME|INDEX", "Camera of the scene [the first]",
-                   [&options](const std::string& text) { options.camera = text; })
+  add_value_option(
+      app, "--camera", "NAME|INDEX|VIEW",
+      "Camera of the scene, or eye=X,Y,Z/target=X,Y,Z, with /up=X,Y,Z and /yfov=DEGREES "
+      "if wanted [the first]",
+      [&options](const std::string& text) { options.camera = text; })
       ->group("Scene");
   add_value_option(app, "--at", "SECONDS", "Pose the scene at this moment of an animation",
                    [&options](const std::string& text) {

@@ -44,6 +44,18 @@ struct Shown {
   Picture picture{0, 0}, reference{0, 0};
 };
 
+const char* reuse_name(Reuse reuse) {
+  switch (reuse) {
+    case Reuse::nothing:
+      return "nothing";
+    case Reuse::shading:
+      return "shading";
+    case Reuse::image:
+      return "image";
+  }
+  return "";
+}
+
 double mean_change(const Picture& from, const Picture& to) {
   if (from.pixels.size() != to.pixels.size() || to.pixels.empty()) return 0.0;
   double sum = 0.0;
@@ -166,6 +178,9 @@ double percentile(std::vector<double> values, double share) {
 
 nlohmann::json frame_json(const FrameReport& report, bool compared) {
   nlohmann::json json = {{"seconds", report.frame.seconds},
+                         {"seconds_view", report.frame.seconds_view},
+                         {"seconds_records", report.frame.seconds_records},
+                         {"seconds_samples", report.frame.seconds_samples},
                          {"traced", report.frame.traced},
                          {"rays", report.frame.rays},
                          {"filled", report.frame.holes},
@@ -282,7 +297,7 @@ int run_walk(const WalkOptions& options) {
 
   RenderSettings traced = settings;
   traced.terms = (1u << term_count) - 1;  // what is shown is chosen afterwards
-  WalkEngine engine(scene, traced, options.walk_mode);
+  WalkEngine engine(scene, traced, options.walk_mode());
   const References references(options, scene, settings);
   Picture picture(size.width, size.height);
   double exposure = options.exposure;
@@ -338,6 +353,7 @@ int run_walk(const WalkOptions& options) {
     write_text_atomically(options.statistics,
                           json_text({{"command", options.command},
                                      {"mode", options.mode},
+                                     {"reuse", reuse_name(options.walk_mode().reuse)},
                                      {"size", {size.width, size.height}},
                                      {"frame_time", options.frame_time},
                                      {"summary", figures},

@@ -30,7 +30,7 @@ struct WalkOptions {
       animation;                    // that is played: name or index; none: the file's rest pose
   double frames_per_second = 30.0;  // of that
   std::string mode = "rc+lv";
-  WalkMode walk_mode;
+  Reuse reuse = Reuse::shading;     // in the modes that keep anything
   double frame_time = 0.033;        // seconds
   RenderSettings settings;          // terms, seed, threads
   std::filesystem::path output;     // folder for the frames, or a movie (.mp4); empty: none
@@ -42,6 +42,10 @@ struct WalkOptions {
   std::filesystem::path statistics;  // empty: none
   bool quiet = false;
   std::string command;
+
+  WalkMode walk_mode() const {
+    return {mode.starts_with("rc") ? reuse : Reuse::nothing, mode.ends_with("lv")};
+  }
 };
 
 void add_walk_options(CLI::App& app, WalkOptions& options);

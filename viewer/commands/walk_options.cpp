@@ -37,9 +37,16 @@ void add_walk_group(CLI::App& app, WalkOptions& options) {
                    "rc or rc+lv: with the shading of earlier frames [rc+lv]",
                    [&options](const std::string& text) {
                      options.mode = parse_word("--mode", text, {"path", "rc", "lv", "rc+lv"});
-                     options.walk_mode.reuse = options.mode.starts_with("rc");
-                     options.walk_mode.light_vectors = options.mode.ends_with("lv");
                    })
+      ->group(group);
+  add_value_option(
+      app, "--reuse", "shading|image",
+      "What rc keeps: how surfaces look, while what the eye sees is traced afresh; or "
+      "the pixels themselves, moved to where they are seen now [shading]",
+      [&options](const std::string& text) {
+        const bool image = parse_word("--reuse", text, {"shading", "image"}) == "image";
+        options.reuse = image ? Reuse::image : Reuse::shading;
+      })
       ->group(group);
   add_value_option(app, "--frame-time", "MS",
                    "What tracing may fill up, with the shading of earlier frames [33]",
@@ -99,8 +106,11 @@ void add_output_group(CLI::App& app, WalkOptions& options) {
 
 void add_walk_options(CLI::App& app, WalkOptions& options) {
   add_scene_options(app, options.scene_file, options.load);
-  add_value_option(app, "--camera", "NAME|INDEX", "Camera of the scene [the first]",
-                   [&options](const std::string& text) { options.camera = text; })
+  add_value_option(
+      app, "--camera", "NAME|INDEX|VIEW",
+      "Camera of the scene, or eye=X,Y,Z/target=X,Y,Z, with /up=X,Y,Z and /yfov=DEGREES "
+      "if wanted [the first]",
+      [&options](const std::string& text) { options.camera = text; })
       ->group("Scene");
   add_environment_options(app, options.environment, "Scene");
   add_walk_group(app, options);
@@ -113,6 +123,8 @@ void check_walk_options(const CLI::App& app, const WalkOptions& options) {
     throw UsageError("walk: no scene is given; write: lumivec walk SCENE --path orbit:30");
   if (!app.count("--path"))
     throw UsageError("walk: no path is given; add --path orbit:30, dolly:1 or a file's name");
+  if (app.count("--reuse") && options.walk_mode().reuse == Reuse::nothing)
+    throw UsageError("--reuse: mode " + options.mode + " keeps nothing; use --mode rc or rc+lv");
   if (app.count("--reference-spp") && options.reference.empty())
     throw UsageError("--reference-spp: there is no reference; add --reference FOLDER");
   const std::string extension = options.output.extension().string();

@@ -37,6 +37,12 @@ constexpr float most_urgent = 15.0f;
 constexpr float most_outdated_samples = 0.5f;
 constexpr float outdating_urgency = 0.9f;
 constexpr float urgency_kept = 0.7f, urgency_spread = 0.5f, least_urgency = 0.02f;
+// Noise is what a sample differs from the mean of those before it, relative to that; at most so
+// much of it is believed of one sample, and it counts like the mean of so many at most. Where there
+// is none, samples are worth this share of what they are on average.
+constexpr float most_noise = 16.0f;
+constexpr float most_noise_samples = 4.0f;
+constexpr float least_noisiness = 0.15f;
 // Rows whose errors are diffused by themselves, so that several threads choose.
 constexpr int band_height = 64;
 
@@ -63,14 +69,31 @@ bool differs(const LiveSample& sample, const float* lanes) {
   return std::abs(now - before) > changed_share * std::max(now, before);
 }
 
+// How far a sample is off the mean of `count` before it: what it would be, squared, of the true
+// one.
+float noise_of(const LiveSample& sample, const float* lanes, float count) {
+  float now = 0.0f, before = 0.0f;
+  for (std::size_t t = 0; t < term_count; ++t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      now += sample.terms[t][static_cast<int>(c)];
+      before += lanes[3 * t + c];
+    }
+  }
+  const float level = 0.5f * (now + before);
+  if (!(level > 0.0f)) return 0.0f;
+  const float off = (now - before) / level;
+  return std::min(off * off * count / (count + 1.0f), most_noise);
+}
+
 }  // namespace
 
 ShadingCache::Shades::Shades(std::size_t pixels)
-    : shade(pixels), specular_samples(pixels, 0.0f), age(pixels, 0) {}
+    : shade(pixels), specular_samples(pixels, 0.0f), noise(pixels, 0.0f), age(pixels, 0) {}
 
 void ShadingCache::Shades::clear(std::size_t pixel) {
   shade[pixel] = {};
   specular_samples[pixel] = 0.0f;
+  noise[pixel] = 0.0f;
   age[pixel] = 0;
 }
 
@@ -81,7 +104,8 @@ ShadingCache::ShadingCache(int width, int height)
       last_shades_(shades_.shade.size()),
       rows_(std::size_t(height)),
       blocks_across_((std::size_t(width) + block_side - 1) / block_side),
-      urgency_(blocks_across_ * ((std::size_t(height) + block_side - 1) / block_side), 0.0f) {}
+      urgency_(blocks_across_ * ((std::size_t(height) + block_side - 1) / block_side), 0.0f),
+      noisiness_(urgency_.size(), 1.0f) {}
 
 void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
   ++frame_;
@@ -106,13 +130,44 @@ void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
       if (left != done) carry_over(reprojection, left, y, visibility, none);
       done = left;
     }
-    grow_older(y);
   });
+  share_noise();
+  for_each_row(height_, [&](int y) { grow_older(y); });
+}
+
+void ShadingCache::see_projected(const Visibility& visibility) {
+  ++frame_;
+  spread_urgency();
+  std::swap(shades_, last_shades_);
+  for_each_row(height_, [&](int y) {
+    for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) {
+      const std::uint32_t source = visibility.source(i);
+      if (source == Visibility::no_source) {
+        shades_.clear(i);
+        continue;
+      }
+      Shade& shade = shades_.shade[i];
+      shade = last_shades_.shade[source];
+      float& samples = shade.lanes[Shade::samples_lane];
+      samples = std::min(samples, most_samples);
+      shades_.specular_samples[i] =
+          std::min(last_shades_.specular_samples[source], most_specular_samples);
+      shades_.noise[i] = last_shades_.noise[source];
+      shades_.age[i] = last_shades_.age[source];
+    }
+  });
+  share_noise();
+  for_each_row(height_, [&](int y) { grow_older(y); });
+}
+
+void ShadingCache::clear(const std::vector<std::uint32_t>& pixels) {
+  for (const std::uint32_t i : pixels) shades_.clear(i);
 }
 
 void ShadingCache::rest() {
   ++frame_;
   spread_urgency();
+  share_noise();
   for_each_row(height_, [&](int y) { grow_older(y); });
 }
 
@@ -148,7 +203,7 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
       continue;
     }
     vfloat8 low(0.0f), high(0.0f);
-    float total = 0.0f, specular_samples = 0.0f, age = 0.0f;
+    float total = 0.0f, specular_samples = 0.0f, noise = 0.0f, age = 0.0f;
     if (taps.total[i] > least_share) {
       for (std::size_t tap = 0; tap < 4; ++tap) {
         const auto index = static_cast<std::size_t>(taps.pixel[tap][i]);
@@ -158,6 +213,7 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
         low = madd(vfloat8(w), vfloat8(from.lanes.data()), low);
         high = madd(vfloat8(w), vfloat8(from.lanes.data() + Reprojection::lanes), high);
         specular_samples += w * last_shades_.specular_samples[index];
+        noise += w * last_shades_.noise[index];
         age += w * static_cast<float>(last_shades_.age[index]);
       }
     }
@@ -172,12 +228,14 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
     float& samples = shade.lanes[Shade::samples_lane];
     samples = std::min(samples, most_samples);
     shades_.specular_samples[pixel] = std::min(specular_samples * scale, most_specular_samples);
+    shades_.noise[pixel] = noise * scale;
     shades_.age[pixel] = static_cast<std::uint16_t>(age * scale);
   }
 }
 
 float ShadingCache::want(std::size_t pixel) const {
-  return (1.0f + most_urgent * urgency_[block_of(pixel)]) *
+  const std::size_t block = block_of(pixel);
+  return noisiness_[block] * (1.0f + most_urgent * urgency_[block]) *
          (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) /
          (1.0f + shades_.shade[pixel].samples());
 }
@@ -198,6 +256,31 @@ void ShadingCache::spread_urgency() {
       urgency_[i] = u < least_urgency ? 0.0f : u;
     }
   }
+}
+
+// Of blocks and not of pixels: one that has met nothing bright yet is not known to be quiet.
+void ShadingCache::share_noise() {
+  const std::size_t down = noisiness_.size() / blocks_across_;
+  std::vector<double> rows(down, 0.0);
+  tbb::parallel_for(std::size_t{0}, down, [&](std::size_t by) {
+    const int top = static_cast<int>(by * block_side);
+    const int bottom = std::min(top + static_cast<int>(block_side), height_);
+    for (std::size_t bx = 0; bx < blocks_across_; ++bx) {
+      const int left = static_cast<int>(bx * block_side);
+      const int right = std::min(left + static_cast<int>(block_side), width_);
+      float sum = 0.0f;
+      for (int y = top; y < bottom; ++y) {
+        for (std::size_t i = at(left, y); i < at(right, y); ++i) sum += shades_.noise[i];
+      }
+      float& noisiness = noisiness_[by * blocks_across_ + bx];
+      noisiness = std::sqrt(sum / static_cast<float>((bottom - top) * (right - left)));
+      rows[by] += double(noisiness);
+    }
+  });
+  double mean = 0.0;
+  for (const double sum : rows) mean += sum / static_cast<double>(noisiness_.size());
+  const float scale = mean > 0.0 ? static_cast<float>(1.0 / mean) : 0.0f;
+  for (float& n : noisiness_) n = mean > 0.0 ? least_noisiness + scale * n : 1.0f;
 }
 
 void ShadingCache::grow_older(int y) {
@@ -289,6 +372,11 @@ void ShadingCache::add(const std::vector<LiveSample>& samples) {
                         if (changing_ && count > 0.0f && differs(sample, s.lanes.data())) {
                           std::atomic_ref<float>(urgency_[block_of(sample.pixel)])
                               .store(1.0f, std::memory_order_relaxed);
+                        }
+                        if (count > 0.0f) {
+                          float& noise = shades_.noise[sample.pixel];
+                          const float a = 1.0f / (1.0f + std::min(count, most_noise_samples));
+                          noise += (noise_of(sample, s.lanes.data(), count) - noise) * a;
                         }
                         float& specular_count = shades_.specular_samples[sample.pixel];
                         const float share = 1.0f / (count + 1.0f),

@@ -25,6 +25,13 @@ class ShadingCache {
   // guessed there is settled.
   void see(LiveTracer& tracer, Visibility& visibility);
 
+  // Likewise of a view that was put together by Visibility::see_projected(): points keep what they
+  // showed.
+  void see_projected(const Visibility& visibility);
+
+  // These pixels show nothing any more: they have turned out to be of other surfaces.
+  void clear(const std::vector<std::uint32_t>& pixels);
+
   // For frames to come, whether the scene is changing: samples that differ from what is known then
   // call for more around them, and what was known there counts little.
   void expect_changes(bool expected) { changing_ = expected; }
@@ -67,6 +74,7 @@ class ShadingCache {
   struct Shades {
     std::vector<Shade> shade;
     std::vector<float> specular_samples;  // that the specular term rests on
+    std::vector<float> noise;             // mean square of what samples are off, relative
     std::vector<std::uint16_t> age;       // frames since a sample was taken
 
     explicit Shades(std::size_t pixels);
@@ -83,6 +91,7 @@ class ShadingCache {
                   const Visibility& visibility, std::vector<std::uint32_t>& doubtful);
   void grow_older(int y);
   void spread_urgency();
+  void share_noise();
   std::size_t block_of(std::size_t pixel) const {
     return pixel / static_cast<std::size_t>(width_) / block_side * blocks_across_ +
            pixel % static_cast<std::size_t>(width_) / block_side;
@@ -103,6 +112,8 @@ class ShadingCache {
   static constexpr std::size_t block_side = 8;
   std::size_t blocks_across_;
   std::vector<float> urgency_;
+  // How much more samples are worth there than elsewhere, as they are noisier.
+  std::vector<float> noisiness_;
   bool changing_ = false;
 };
 

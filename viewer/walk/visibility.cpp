@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 
 namespace lumivec {
@@ -16,6 +17,11 @@ constexpr int cell = 4;  // pixels between those that are traced anyway
 // in one another's tangent planes up to this many pixels.
 constexpr float smooth_cosine = 0.9986f;
 constexpr float most_off_plane = 0.5f;
+// Of projected points: one that is this share deeper than the mean of those around it is behind
+// them, and one of another depth than that which a ray finds is another one.
+constexpr float most_depth_share = 0.1f;
+// Background among so many of eight neighbours is seen through a surface.
+constexpr int most_surfaces_around = 5;
 
 template <typename Body>
 void for_each_row(int height, const Body& body) {
@@ -64,12 +70,119 @@ void Visibility::see_next(LiveTracer& tracer) {
   trace(tracer, pixels);
 }
 
-void Visibility::see_again(LiveTracer& tracer) {
+void Visibility::see_again(LiveTracer& tracer, std::vector<std::uint32_t>& others) {
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < state_.size(); ++i) {
     if (guessed(i)) pixels.push_back(static_cast<std::uint32_t>(i));
   }
-  settle(tracer, pixels);
+  verify(tracer, pixels, others);
+}
+
+void Visibility::verify(LiveTracer& tracer, const std::vector<std::uint32_t>& pixels,
+                        std::vector<std::uint32_t>& others) {
+  struct Surface {
+    float depth;
+    std::uint32_t normal;
+    std::int32_t object;
+  };
+  std::vector<std::uint32_t> untraced;
+  std::vector<Surface> before;
+  for (const std::uint32_t i : pixels) {
+    if (state_[i] == traced) continue;
+    untraced.push_back(i);
+    before.push_back({now_.depth[i], now_.normal[i], now_.object[i]});
+  }
+  settle(tracer, untraced);
+  others.clear();
+  for (std::size_t k = 0; k < untraced.size(); ++k) {
+    const std::uint32_t i = untraced[k];
+    const Surface& b = before[k];
+    const bool same =
+        now_.object[i] == b.object &&
+        (b.object < 0 || (normals_alike(now_.normal[i], b.normal) &&
+                          std::abs(now_.depth[i] - b.depth) <= most_depth_share * now_.depth[i]));
+    if (!same) others.push_back(i);
+  }
+}
+
+void Visibility::see_projected(const LiveTracer& tracer) {
+  std::swap(now_, last_);
+  ray_count_ = 0;
+  const PictureRays then = tracer.view(1).rays();
+  const PicturePlane plane = tracer.view(0).plane();
+  // Depth, and the last view's pixel: the least is the nearest, and the same in whatever order.
+  constexpr std::uint64_t empty = ~std::uint64_t{0};
+  std::vector<std::uint64_t> nearest(state_.size(), empty);
+  constexpr float far_away = 1e12f;  // where background is seen, so that only its direction counts
+  for_each_row(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t i = at(x, y);
+      if (last_.object[i] == VisibleSurfaces::unknown) continue;
+      const bool surface = last_.object[i] >= 0;
+      const V3f p = then.point(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
+                               surface ? last_.depth[i] : far_away) -
+                    plane.eye;
+      const float depth = p.dot(plane.forward);
+      if (!(depth > 0.0f)) continue;
+      const float scale = plane.perspective ? 1.0f / depth : 1.0f;
+      const float fx = p.dot(plane.x_axis) * scale + plane.center.x,
+                  fy = p.dot(plane.y_axis) * scale + plane.center.y;
+      if (!(fx >= 0.0f && fy >= 0.0f && fx < static_cast<float>(width_) &&
+            fy < static_cast<float>(height_))) {
+        continue;
+      }
+      const float key_depth = surface ? depth : VisibleSurfaces::nothing;
+      const std::uint64_t key =
+          std::uint64_t{std::bit_cast<std::uint32_t>(key_depth)} << 32 | std::uint64_t{i};
+      std::atomic_ref<std::uint64_t> place(nearest[at(static_cast<int>(fx), static_cast<int>(fy))]);
+      std::uint64_t there = place.load(std::memory_order_relaxed);
+      while (key < there && !place.compare_exchange_weak(there, key, std::memory_order_relaxed)) {
+      }
+    }
+  });
+  source_.resize(state_.size());
+  for_each_row(height_, [&](int y) {
+    for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) {
+      const bool found = nearest[i] != empty;
+      source_[i] = found ? static_cast<std::uint32_t>(nearest[i]) : no_source;
+      state_[i] = interpolated;
+      now_.depth[i] = found ? std::bit_cast<float>(static_cast<std::uint32_t>(nearest[i] >> 32))
+                            : VisibleSurfaces::nothing;
+      now_.normal[i] = found ? last_.normal[source_[i]] : 0;
+      now_.object[i] = found ? last_.object[source_[i]] : VisibleSurfaces::unknown;
+    }
+  });
+  cull_hidden();
+}
+
+void Visibility::cull_hidden() {
+  std::vector<std::vector<std::uint32_t>> rows(static_cast<std::size_t>(height_));
+  for_each_row(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t i = at(x, y);
+      if (source_[i] == no_source) continue;
+      float sum = 0.0f;
+      int count = 0;
+      for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height_ - 1); ++ny) {
+        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width_ - 1); ++nx) {
+          if (now_.object[at(nx, ny)] < 0) continue;
+          sum += now_.depth[at(nx, ny)];
+          ++count;
+        }
+      }
+      const bool hidden = now_.object[i] < 0 ? count >= most_surfaces_around
+                                             : now_.depth[i] > (1.0f + most_depth_share) * sum /
+                                                                   static_cast<float>(count);
+      if (hidden) rows[static_cast<std::size_t>(y)].push_back(static_cast<std::uint32_t>(i));
+    }
+  });
+  std::vector<std::uint32_t> hidden;
+  join_lists(rows, hidden);
+  for (const std::uint32_t i : hidden) {
+    source_[i] = no_source;
+    now_.object[i] = VisibleSurfaces::unknown;
+    now_.depth[i] = VisibleSurfaces::nothing;
+  }
 }
 
 void Visibility::settle(LiveTracer& tracer, const std::vector<std::uint32_t>& pixels) {

@@ -35,8 +35,19 @@ class Visibility {
   // The same of a view that is like the last one, if objects have not moved. What the last view did
   // not show at a pixel that is guessed() is to be settled afterwards.
   void see_next(LiveTracer& tracer);
-  // Traces what was guessed of the same view.
-  void see_again(LiveTracer& tracer);
+  // Likewise without any ray: the points that the last view showed, each where it is now, the
+  // nearest of those that come to lie in one pixel, without those that are seen through nearer
+  // surfaces (Walter, Drettakis and Parker 1999, sections 3.2 and 3.3). Where there is none, the
+  // object is VisibleSurfaces::unknown.
+  void see_projected(const LiveTracer& tracer);
+  // The last view's pixel whose point one shows since see_projected(); none: no_source.
+  static constexpr std::uint32_t no_source = 0xffffffffu;
+  std::uint32_t source(std::size_t pixel) const { return source_[pixel]; }
+  // Traces what of these is not known by a ray; `others`: those that show another surface then.
+  void verify(LiveTracer& tracer, const std::vector<std::uint32_t>& pixels,
+              std::vector<std::uint32_t>& others);
+  // Traces what was guessed of the same view; `others`: likewise.
+  void see_again(LiveTracer& tracer, std::vector<std::uint32_t>& others);
   // Traces these pixels too.
   void settle(LiveTracer& tracer, const std::vector<std::uint32_t>& pixels);
 
@@ -49,6 +60,7 @@ class Visibility {
   std::size_t ray_count() const { return ray_count_; }
 
  private:
+  void cull_hidden();
   void mark_edges(const LiveTracer& tracer);
   void choose_cells(std::vector<std::uint32_t>& pixels);
   void fill_cells(const LiveTracer& tracer, std::vector<std::uint32_t>& pixels);
@@ -66,6 +78,7 @@ class Visibility {
   unsigned phase_ = 0;  // of the pixels that are traced anyway
   VisibleSurfaces now_, last_;
   std::vector<std::uint8_t> state_;
+  std::vector<std::uint32_t> source_;
   std::size_t ray_count_ = 0;
 };
 

@@ -19,13 +19,23 @@ constexpr double first_sample_seconds = 4e-6;
 constexpr double learning = 0.3;
 // Of a frame's time for tracing, records have this share while there are some to make.
 constexpr double share_of_records = 0.4;
+// Likewise what there is has this share to become better in, as long as the eye moves.
+constexpr double share_of_refining = 0.1;
+// And photons this one, as long as there are too few, and at rest.
+constexpr double share_of_photons = 0.06;
 // The first picture may take so long, or a frame's time if that is more: without any record its
 // samples would be whole paths, which are noisy for long.
 constexpr double first_frame_seconds = 0.2;
-// A view is at rest after so many frames.
+// However slow a machine is, records have at least this share of a frame's time.
+constexpr double least_share_of_records = 0.1;
+// A view is at rest after so many frames. From then on frames may take so many times as long: what
+// is done once a frame is done less often.
 constexpr int frames_to_rest = 8;
+constexpr double longer_at_rest = 3.0;
 // Samples taken before cached light has become better count like so many at most.
 constexpr float most_outdated_samples = 4.0f;
+// Cached light is made for what the eye sees in so many frames if it goes on as it does.
+constexpr int frames_ahead = 8;
 // Changes of the light show for so long.
 constexpr double restless_seconds = 1.0;
 // However slow a machine is, at least this share of the pixels is traced in every frame.
@@ -70,12 +80,48 @@ void WalkEngine::change_light(const std::function<void()>& change) {
   if (tracer_.generation() != generation) shading_.doubt(most_outdated_samples);
 }
 
+// The eye goes on as it went from the last frame to this one.
+void WalkEngine::expect_view(const Camera& camera) {
+  if (!last_ || same_view(*last_, camera) || mode_.reuse == Reuse::nothing) {
+    tracer_.expect_view(nullptr);
+    return;
+  }
+  const M44d motion = last_->camera_to_world.inverse() * camera.camera_to_world;
+  Camera expected = camera;
+  for (int i = 0; i < frames_ahead; ++i) expected.camera_to_world *= motion;
+  tracer_.expect_view(&expected);
+}
+
+// Each of a resting view's samples of a pixel has photons of its own.
+void WalkEngine::gather_photons(double seconds) {
+  if (changes_ && seconds_since_change_ < restless_seconds) return;
+  const bool another = resting_ >= frames_to_rest && samples_at_rest_ >= next_map_;
+  change_light([&] {
+    if (tracer_.gather_photons(seconds, another))
+      next_map_ = samples_at_rest_ + std::size_t(width_) * std::size_t(height_);
+  });
+}
+
+void WalkEngine::improve(double seconds) {
+  tracer_.improve(seconds, moved_ ? share_of_refining / share_of_records * seconds : seconds);
+}
+
+// Points in image space are only guesses of what pixels show.
+void WalkEngine::verify_chosen() {
+  if (mode_.reuse != Reuse::image) return;
+  pixels_.clear();
+  for (const LiveRequest& r : requests_) pixels_.push_back(r.pixel);
+  visibility_.verify(tracer_, pixels_, others_);
+  shading_.clear(others_);
+}
+
 void WalkEngine::trace_within(double seconds) {
   const Clock::time_point start = Clock::now();
   const double pixels = static_cast<double>(width_) * static_cast<double>(height_);
   const auto count = static_cast<std::size_t>(
       std::clamp(seconds / sample_seconds_, std::ceil(least_traced_share * pixels), pixels));
   shading_.choose(count, requests_);
+  verify_chosen();
   tracer_.trace(requests_, moved_, samples_);
   shading_.add(samples_);
   if (requests_.empty()) return;
@@ -89,41 +135,54 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   const RenderStatistics before = tracer_.statistics();
   Frame frame;
   const bool moved = !last_ || changed_ || !same_view(*last_, camera);
+  expect_view(camera);
   last_ = camera;
   shading_.expect_changes(changed_ || (changes_ && seconds_since_change_ < restless_seconds));
   if (moved) {
     resting_ = 0;
-    samples_at_rest_ = next_rest_ = 0;
+    samples_at_rest_ = next_map_ = 0;
     tracer_.set_view(camera, width_, height_);
     // Nothing is known before the first frame, little of what else moves, and guesses end with the
     // movement.
-    const bool all = frame_ == 0 || changed_ || !mode_.reuse;
-    all ? visibility_.see_all(tracer_) : visibility_.see_next(tracer_);
-    shading_.see(tracer_, visibility_);
+    const bool all = frame_ == 0 || changed_ || mode_.reuse == Reuse::nothing;
+    if (!all && mode_.reuse == Reuse::image) {
+      visibility_.see_projected(tracer_);
+      shading_.see_projected(visibility_);
+    } else {
+      all ? visibility_.see_all(tracer_) : visibility_.see_next(tracer_);
+      shading_.see(tracer_, visibility_);
+    }
     pivot_ = tracer_.pivot(visibility_.now());
   } else {
-    if (moved_) visibility_.see_again(tracer_);
+    if (moved_) {
+      visibility_.see_again(tracer_, others_);
+      if (mode_.reuse == Reuse::image) shading_.clear(others_);
+    }
     shading_.rest();
     ++resting_;
-    if (resting_ >= frames_to_rest && samples_at_rest_ >= next_rest_) {
-      next_rest_ = samples_at_rest_ + std::size_t(width_) * std::size_t(height_);
-      change_light([&] { tracer_.take_time(); });
-    }
   }
   moved_ = moved;
   changed_ = false;
+  frame.seconds_view = seconds_since(start);
+  if (resting_ >= frames_to_rest) frame_time *= longer_at_rest;
   if (frame_ == 0) frame_time = std::max(frame_time, first_frame_seconds);
-  if (mode_.reuse) {
+  if (mode_.reuse != Reuse::nothing) {
+    gather_photons(share_of_photons * frame_time);
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
-    const double least = frame_ == 0 ? share_of_records * first_frame_seconds : 0.0;
-    change_light([&] { tracer_.improve(std::max(least, share_of_records * left)); });
+    const double least =
+        frame_ == 0 ? share_of_records * first_frame_seconds : least_share_of_records * frame_time;
+    change_light([&] { improve(std::max(least, share_of_records * left)); });
+    frame.seconds_records = seconds_since(start) - frame.seconds_view;
     trace_within(frame_time - seconds_since(start) - fixed_seconds_);
   } else {
     shading_.forget();
-    change_light([&] { tracer_.improve(share_of_records * frame_time); });
+    gather_photons(share_of_photons * frame_time);
+    change_light([&] { improve(share_of_records * frame_time); });
+    frame.seconds_records = seconds_since(start) - frame.seconds_view;
     trace_all();
   }
   const Clock::time_point traced = Clock::now();
+  frame.seconds_samples = seconds_since(start) - frame.seconds_view - frame.seconds_records;
   shading_.resolve(terms, visibility_.now(), picture);
   const double after = seconds_since(traced);
   fixed_seconds_ += learning * (after - fixed_seconds_);
@@ -139,6 +198,16 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   frame.cache_hits = tracer_.statistics().cache_hits - before.cache_hits;
   frame.cache_misses = tracer_.statistics().cache_misses - before.cache_misses;
   return frame;
+}
+
+void WalkEngine::resize(int width, int height) {
+  width_ = width;
+  height_ = height;
+  if (last_) tracer_.set_view(*last_, width, height);  // what the next view is compared with
+  visibility_ = Visibility(width, height);
+  shading_ = ShadingCache(width, height);
+  last_.reset();
+  frame_ = 0;
 }
 
 void WalkEngine::update(const SceneChanges& changes) {

@@ -1,0 +1,405 @@
+#include <algorithm>
+#include <cmath>
+
+#include "loader/placement.h"
+#include "loader/pov/bounds.h"
+#include "loader/pov/conversion.h"
+#include "loader/pov/finiteness.h"
+#include "loader/pov/solids.h"
+#include "loader/pov/surfaces.h"
+#include "loader/pov/tessellation.h"
+
+namespace lumivec::pov {
+namespace {
+
+// What an object takes from those around it.
+struct Around {
+  M44d transform;  // to the scene's coordinates
+  M44d to_world;   // the same, and on to the world
+  std::shared_ptr<const Texture> texture;
+  std::shared_ptr<const Interior> interior;
+  Clips clips;                                             // what cuts the object's surface
+  Imath::Box3d bounds{V3d(-beyond_all), V3d(beyond_all)};  // in the scene's coordinates
+  bool lamp = false;
+  bool inside_out = false;  // what a difference takes away, and inverse objects
+};
+
+const char* shape_name(const Shape& shape) {
+  if (std::holds_alternative<std::shared_ptr<const HeightFieldShape>>(shape)) return "height field";
+  if (std::holds_alternative<std::shared_ptr<const TextShape>>(shape)) return "text";
+  if (std::holds_alternative<std::shared_ptr<const SphereSweepShape>>(shape)) return "sphere sweep";
+  if (std::holds_alternative<std::shared_ptr<const ParametricShape>>(shape))
+    return "parametric surface";
+  if (std::holds_alternative<JuliaShape>(shape)) return "julia fractal";
+  if (std::holds_alternative<std::shared_ptr<const IsosurfaceShape>>(shape))
+    return "isosurface of a function that cannot be evaluated";
+  return "shape";
+}
+
+void mention_surface(Parser& parser, const Place& place, const SurfaceNotes& notes) {
+  if (notes.averaged) parser.mention(place, "a pattern became its average color");
+  if (notes.ambient) {
+    parser.mention(place,
+                   "ambient light is left out: light comes from lamps, the sky and surfaces");
+  }
+  if (notes.bumps) parser.mention(place, "the bumps of a normal are left out");
+  if (notes.metallic) parser.mention(place, "a metallic highlight has the color of the light");
+  if (notes.brilliance) parser.mention(place, "brilliance is left out");
+  if (notes.layers) parser.mention(place, "of a layered texture one layer is shown");
+}
+
+bool is_finite(const Material& m) {
+  for (const Color& c : {m.base_color, m.emission, m.specular_color, m.attenuation_color}) {
+    if (!fits_float(V3d(c))) return false;
+  }
+  return std::isfinite(m.roughness) && std::isfinite(m.ior) && std::isfinite(m.specular) &&
+         std::isfinite(m.transmission) && !std::isnan(m.attenuation_distance);
+}
+
+MaterialKey key_of(const Material& m) {
+  const auto flag = [](bool value) { return value ? 1.0f : 0.0f; };
+  return {m.base_color.x,
+          m.base_color.y,
+          m.base_color.z,
+          m.emission.x,
+          m.emission.y,
+          m.emission.z,
+          m.specular_color.x,
+          m.specular_color.y,
+          m.specular_color.z,
+          m.attenuation_color.x,
+          m.attenuation_color.y,
+          m.attenuation_color.z,
+          m.attenuation_distance,
+          m.roughness,
+          m.ior,
+          m.specular,
+          m.transmission,
+          flag(m.thin_walled),
+          flag(m.double_sided)};
+}
+
+int material_of(Conversion& conversion, const Object& object, const Around& around) {
+  static const Texture usual = [] {
+    Texture texture;
+    texture.layers.emplace_back();
+    return texture;
+  }();
+  const Texture* texture = around.texture ? around.texture.get()
+                           : conversion.scene.default_texture
+                               ? conversion.scene.default_texture.get()
+                               : &usual;
+  const auto key = std::make_tuple(static_cast<const void*>(texture),
+                                   static_cast<const void*>(around.interior.get()), around.lamp);
+  const auto known = conversion.materials.find(key);
+  if (known != conversion.materials.end()) return known->second;
+  SurfaceChoice choice;
+  choice.gamma = conversion.scene.settings.assumed_gamma;
+  choice.lamp = around.lamp;
+  Object bare = object;
+  bare.transform = nullptr;
+  choice.bounds = bounds_of(bare);
+  SurfaceNotes notes;
+  Material material = surface_of(*texture, around.interior.get(), choice, notes);
+  mention_surface(conversion.parser, object.place, notes);
+  if (!is_finite(material))
+    conversion.parser.fail_at(
+        object.place, "a color or other number of the object's surface is not finite or too large");
+  const auto [same, fresh] = conversion.distinct.try_emplace(
+      key_of(material), static_cast<int>(conversion.out.materials.size()));
+  if (fresh) conversion.out.materials.push_back(std::move(material));
+  // Objects that say their textures each for themselves must not grow this beyond what they hold.
+  conversion.parser.claim(sizeof(*conversion.materials.begin()));
+  conversion.materials.emplace(key, same->second);
+  return same->second;
+}
+
+void add_instance(Conversion& conversion, const Object& object, const Around& around, int mesh,
+                  int sphere, const M44d& object_to_world, const Imath::Box3d& bounds) {
+  if (placement(bounds, object_to_world) != Placement::shown) {
+    conversion.parser.mention(object.place,
+                              "an object without extent, or too far away, is left out");
+    return;
+  }
+  conversion.parser.claim(sizeof(Instance));
+  Instance instance;
+  instance.mesh = mesh;
+  instance.sphere = sphere;
+  instance.material = material_of(conversion, object, around);
+  instance.object_to_world = object_to_world;
+  conversion.out.instances.push_back(std::move(instance));
+}
+
+// All spheres are the unit sphere, placed.
+void add_sphere(Conversion& conversion, const Object& object, const Around& around,
+                const SphereShape& sphere) {
+  const double radius = std::abs(sphere.radius);
+  if (radius == 0.0) return;
+  if (conversion.out.spheres.empty()) conversion.out.spheres.push_back({1.0f});
+  M44d place;
+  place.setScale(V3d(radius));
+  place[3][0] = sphere.center.x;
+  place[3][1] = sphere.center.y;
+  place[3][2] = sphere.center.z;
+  add_instance(conversion, object, around, -1, 0, place * around.to_world, {V3d(-1.0), V3d(1.0)});
+}
+
+void turn_inside_out(Mesh& mesh) {
+  for (auto& t : mesh.triangles) std::swap(t.y, t.z);
+  for (V3f& n : mesh.normals) n = -n;
+}
+
+void add_mesh(Conversion& conversion, const Object& object, const Around& around, Mesh mesh,
+              const M44d& object_to_world) {
+  if (mesh.triangles.empty()) return;
+  if (around.inside_out) turn_inside_out(mesh);
+  const auto is_finite = [](const V3f& v) { return fits_float(V3d(v)); };
+  if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite) ||
+      !std::all_of(mesh.normals.begin(), mesh.normals.end(), is_finite)) {
+    conversion.parser.fail_at(object.place,
+                              "a point or normal of the object is not finite or too large");
+  }
+  Imath::Box3d bounds;
+  for (const V3f& p : mesh.positions) bounds.extendBy(V3d(p));
+  conversion.parser.claim(mesh.positions.size() * (sizeof(V3f) * (mesh.normals.empty() ? 1 : 2)) +
+                          mesh.triangles.size() * sizeof(mesh.triangles[0]));
+  const std::size_t before = conversion.out.instances.size();
+  add_instance(conversion, object, around, static_cast<int>(conversion.out.meshes.size()), -1,
+               object_to_world, bounds);
+  if (conversion.out.instances.size() > before) conversion.out.meshes.push_back(std::move(mesh));
+}
+
+// A surface that others cut is made in the scene's coordinates, where their insides are known.
+void add_cut_surface(Conversion& conversion, const Object& object, const Around& around) {
+  // Modifiers stand in the space around the object.
+  Object in_scene = object;
+  in_scene.transform = std::make_shared<const M44d>(around.transform);
+  in_scene.extras = nullptr;
+  Imath::Box3d region = bounds_of(in_scene);
+  for (int i = 0; i < 3; ++i) {
+    region.min[i] = std::max(region.min[i], around.bounds.min[i]);
+    region.max[i] = std::min(region.max[i], around.bounds.max[i]);
+  }
+  const auto surface = solid_surface(object.shape, around.transform, around.clips, region,
+                                     conversion.reach, conversion.focus);
+  if (!surface) {
+    conversion.parser.mention(object.place,
+                              std::string("a ") + shape_name(object.shape) + " is left out");
+    return;
+  }
+  add_mesh(conversion, object, around, *surface, conversion.to_world);
+}
+
+std::shared_ptr<const Clip> make_clip(Parser& parser, const std::shared_ptr<const Object>& object,
+                                      const M44d& around, bool inside) {
+  parser.claim(object->measure.count * sizeof(Solid));
+  return std::make_shared<const Clip>(object, around, inside);
+}
+
+// What clips an object, and what tells where infinite surfaces of it matter.
+void add_bounds(Parser& parser, const ObjectExtras& extras, const M44d& outside, Around& around) {
+  for (const auto& clip : extras.clipped_by)
+    around.clips.push_back(make_clip(parser, clip, outside, true));
+  for (const auto& bound : extras.bounded_by) {
+    const auto clip = make_clip(parser, bound, outside, true);
+    for (int i = 0; i < 3; ++i) {
+      around.bounds.min[i] = std::max(around.bounds.min[i], clip->bounds().min[i]);
+      around.bounds.max[i] = std::min(around.bounds.max[i], clip->bounds().max[i]);
+    }
+    if (extras.clipped_by_bounds) around.clips.push_back(clip);
+  }
+}
+
+void convert(Conversion& conversion, const Object& object, const Around& around);
+
+// Parts of unions stand alone; of other combinations each is cut by all others.
+void convert_parts(Conversion& conversion, const CombinedShape& combined, const Around& around) {
+  const auto& parts = combined.parts;
+  if (combined.combination == Combination::union_) {
+    // Small unions leave the growth to the list, or it would be moved for each.
+    auto& instances = conversion.out.instances;
+    const std::size_t wanted = instances.size() + parts.size();
+    if (wanted > 2 * instances.capacity()) instances.reserve(wanted);
+    for (const auto& part : parts) convert(conversion, *part, around);
+    return;
+  }
+  const auto clip_of = [&](std::size_t i) {
+    const bool inside = combined.combination == Combination::intersection ||
+                        (combined.combination == Combination::difference && i == 0);
+    return make_clip(conversion.parser, parts[i], around.transform, inside);
+  };
+  Clips clips;
+  for (std::size_t i = 0; i < parts.size(); ++i) clips.push_back(clip_of(i));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Around part = around;
+    if (combined.combination == Combination::difference && i > 0)
+      part.inside_out = !part.inside_out;
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      if (i != j) part.clips.push_back(clips[j]);
+    }
+    convert(conversion, *parts[i], part);
+  }
+}
+
+// The faces of each texture as a mesh of their own.
+std::map<int, MeshShape> by_texture(Parser& parser, const MeshShape& mesh) {
+  parser.claim(mesh.faces.size() * 3 *
+               (2 * sizeof(V3d) + sizeof(mesh.uvs[0]) + sizeof(mesh.faces[0])));
+  std::map<int, MeshShape> pieces;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    MeshShape& piece = pieces[mesh.face_textures[i][0]];
+    const auto first = static_cast<std::uint32_t>(piece.points.size());
+    piece.faces.push_back({first, first + 1, first + 2});
+    const auto& face = mesh.faces[i];
+    const auto& normals = mesh.face_normals.empty() ? face : mesh.face_normals[i];
+    const auto& uvs = mesh.face_uvs.empty() ? face : mesh.face_uvs[i];
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      piece.points.push_back(mesh.points[face[corner]]);
+      piece.bounds.extendBy(piece.points.back());
+      if (!mesh.normals.empty()) piece.normals.push_back(mesh.normals[normals[corner]]);
+      if (!mesh.uvs.empty()) piece.uvs.push_back(mesh.uvs[uvs[corner]]);
+    }
+  }
+  return pieces;
+}
+
+void convert_shape(Conversion& conversion, const Object& object, const Around& around);
+
+void convert_textured_mesh(Conversion& conversion, const Object& object, const MeshShape& mesh,
+                           const Around& around) {
+  const auto differs = [](const auto& corners) {
+    return corners[1] != corners[0] || corners[2] != corners[0];
+  };
+  if (std::any_of(mesh.face_textures.begin(), mesh.face_textures.end(), differs))
+    conversion.parser.mention(object.place,
+                              "a triangle between textures shows that of its first corner");
+  for (auto& [texture, piece] : by_texture(conversion.parser, mesh)) {
+    Object part = object;
+    part.shape = std::make_shared<const MeshShape>(std::move(piece));
+    if (texture < 0) {
+      convert_shape(conversion, part, around);
+      continue;
+    }
+    Around own = around;
+    own.texture = mesh.textures[static_cast<std::size_t>(texture)];
+    convert_shape(conversion, part, own);
+  }
+}
+
+// Refuses curves of so many points that their surface would pass the bound on memory.
+void check_size(Parser& parser, const Object& object) {
+  std::uint64_t points = 0, around = around_steps;
+  if (const auto* lathe = std::get_if<std::shared_ptr<const LatheShape>>(&object.shape)) {
+    points = (*lathe)->points.size();
+  } else if (const auto* sor = std::get_if<std::shared_ptr<const SorShape>>(&object.shape)) {
+    points = (*sor)->points.size();
+  } else if (const auto* prism = std::get_if<std::shared_ptr<const PrismShape>>(&object.shape)) {
+    points = (*prism)->points.size();
+    around = 4;
+  }
+  constexpr std::uint64_t bytes_of_point =
+      4 * sizeof(V3f) + 2 * sizeof(std::array<std::uint32_t, 3>);
+  const std::uint64_t bytes = points * curve_steps * around * bytes_of_point;
+  if (bytes > parser.unclaimed()) parser.claim(bytes);
+}
+
+// The object's own texture, transform and the like are in what is around its shape.
+void convert_shape(Conversion& conversion, const Object& object, const Around& around) {
+  if (const auto* combined = std::get_if<std::shared_ptr<const CombinedShape>>(&object.shape))
+    return convert_parts(conversion, **combined, around);
+  if (const auto* field = std::get_if<std::shared_ptr<const HeightFieldShape>>(&object.shape);
+      field && !(*field)->function) {
+    Object part = object;
+    auto mesh = height_field_mesh(conversion.parser, **field, object.place);
+    if (!mesh) return;
+    part.shape = std::move(mesh);
+    return convert_shape(conversion, part, around);
+  }
+  if (const auto* mesh = std::get_if<std::shared_ptr<const MeshShape>>(&object.shape)) {
+    if (!(*mesh)->face_textures.empty())
+      return convert_textured_mesh(conversion, object, **mesh, around);
+  }
+  if (!around.clips.empty()) return add_cut_surface(conversion, object, around);
+  if (const auto* sphere = std::get_if<SphereShape>(&object.shape))
+    return add_sphere(conversion, object, around, *sphere);
+  check_size(conversion.parser, object);
+  if (auto mesh = tessellate(object.shape, conversion.reach)) {
+    add_mesh(conversion, object, around, std::move(*mesh), around.to_world);
+    return;
+  }
+  add_cut_surface(conversion, object, around);
+}
+
+Around with_own(const Conversion& conversion, const Object& object, const Around& around) {
+  Around own = around;
+  if (object.transform) {
+    own.transform = *object.transform * around.transform;
+    own.to_world = own.transform * conversion.to_world;
+  }
+  if (object.texture) own.texture = object.texture;
+  if (object.interior) own.interior = object.interior;
+  if (object.inverse) own.inside_out = !own.inside_out;
+  if (object.extras) add_bounds(conversion.parser, *object.extras, around.transform, own);
+  return own;
+}
+
+void convert(Conversion& conversion, const Object& object, const Around& around) {
+  if (const auto* light = std::get_if<std::shared_ptr<const LightSource>>(&object.shape)) {
+    const M44d transform =
+        object.transform ? *object.transform * around.transform : around.transform;
+    return convert_light(conversion, **light, transform, object.place);
+  }
+  if (object.extras && object.extras->interior_texture)
+    conversion.parser.mention(object.place,
+                              "an interior_texture is left out: both sides look alike");
+  if (const auto* blob = std::get_if<std::shared_ptr<const BlobShape>>(&object.shape)) {
+    const auto has_texture = [](const BlobShape::Component& part) {
+      return part.texture != nullptr;
+    };
+    if (std::any_of((*blob)->components.begin(), (*blob)->components.end(), has_texture))
+      conversion.parser.mention(object.place, "the textures of a blob's components are left out");
+  }
+  if (object.no_image || object.no_reflection || object.no_shadow) {
+    conversion.parser.mention(
+        object.place,
+        "no_image, no_reflection and no_shadow are left out: the object is seen by all");
+  }
+  if (!object.transform && !object.texture && !object.interior && !object.extras && !object.inverse)
+    return convert_shape(conversion, object, around);
+  convert_shape(conversion, object, with_own(conversion, object, around));
+}
+
+}  // namespace
+
+void convert_objects(Conversion& conversion) {
+  Around nothing;
+  nothing.to_world = conversion.to_world;
+  for (const auto& object : conversion.scene.objects) convert(conversion, *object, nothing);
+}
+
+void convert_lamp_object(Conversion& conversion, const Object& object, const M44d& transform,
+                         const Color& radiance) {
+  auto lamp = std::make_shared<Texture>();
+  lamp->layers.emplace_back();
+  lamp->layers.back().pigment.color = {0.0, 0.0, 0.0, 0.0, 0.0};
+  conversion.kept.push_back(lamp);
+  Material material;
+  material.name = "lamp";
+  material.base_color = Color(0.0f);
+  material.specular = 0.0f;
+  material.double_sided = true;
+  material.emission = radiance;
+  conversion.materials.emplace(std::make_tuple(static_cast<const void*>(lamp.get()), nullptr, true),
+                               static_cast<int>(conversion.out.materials.size()));
+  conversion.out.materials.push_back(std::move(material));
+  Object shining = object;
+  shining.texture = lamp;
+  shining.interior = nullptr;
+  Around around;
+  around.transform = transform;
+  around.to_world = transform * conversion.to_world;
+  around.lamp = true;
+  convert(conversion, shining, around);
+}
+
+}  // namespace lumivec::pov

@@ -1,0 +1,231 @@
+// What a described scene becomes: surfaces and which way they look, cameras, and that every number
+// of the result is finite.
+#include <cmath>
+#include <numbers>
+
+#include "tests/pov_file.h"
+
+namespace {
+
+using lumivec::Mesh;
+using lumivec::Scene;
+using lumivec::V3d;
+using lumivec::V3f;
+
+V3d corner(const Mesh& mesh, std::uint32_t i) {
+  return V3d(mesh.positions[i]);
+}
+
+// Of the surface; above 0 if it looks outward.
+double volume(const Mesh& mesh) {
+  double sum = 0.0;
+  for (const auto& t : mesh.triangles)
+    sum += corner(mesh, t.x).dot(corner(mesh, t.y).cross(corner(mesh, t.z))) / 6.0;
+  return sum;
+}
+
+double area(const Mesh& mesh) {
+  double sum = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const V3d a = corner(mesh, t.x);
+    sum += (corner(mesh, t.y) - a).cross(corner(mesh, t.z) - a).length() / 2.0;
+  }
+  return sum;
+}
+
+double volume(const Scene& scene) {
+  double sum = 0.0;
+  for (const Mesh& mesh : scene.meshes) sum += volume(mesh);
+  return sum;
+}
+
+// ---- solids ------------------------------------------------------------------------------------
+
+TEST(PovConvert, WhatADifferenceTakesAwayLooksIntoTheHole) {
+  const Scene scene = PovFile("difference { box { -1, 1 } box { -0.5, 0.5 } }").load();
+  EXPECT_NEAR(volume(scene), 7.0, 1e-3);
+  const Scene nested = PovFile(
+                           "difference { box { -1, 1 } difference { box { -0.5, 0.5 } "
+                           "box { -0.25, 0.25 } } }")
+                           .load();
+  EXPECT_NEAR(volume(nested), 7.125, 1e-3);
+}
+
+TEST(PovConvert, ABiteOfASphereLooksOutward) {
+  const Scene scene = PovFile("difference { box { -1, 1 } sphere { <0, 1, 0>, 0.5 } }").load();
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  const Mesh& bite = scene.meshes[1];
+  for (std::size_t i = 0; i < bite.positions.size(); ++i) {
+    const V3d from_center = V3d(bite.positions[i]) - V3d(0, 1, 0);
+    ASSERT_LT(from_center.dot(V3d(bite.normals[i])), 0.0);
+  }
+}
+
+TEST(PovConvert, ACutSphereIsCoveredOnce) {
+  const Scene scene = PovFile("intersection { sphere { 0, 1 } box { -2, <2, 0, 2> } }").load();
+  ASSERT_FALSE(scene.meshes.empty());
+  EXPECT_NEAR(area(scene.meshes[0]), 2.0 * std::numbers::pi, 0.02);
+}
+
+TEST(PovConvert, InverseTurnsASurface) {
+  EXPECT_NEAR(volume(PovFile("box { -1, 1 inverse }").load()), -8.0, 1e-6);
+}
+
+TEST(PovConvert, MirroredCutsLookOutward) {
+  const Scene scene =
+      PovFile("intersection { box { -1, 1 } box { -2, <2, 0, 2> } scale <-1, 1, 1> }").load();
+  EXPECT_NEAR(volume(scene), 4.0, 1e-3);
+}
+
+TEST(PovConvert, AnOpenProfileIsInsideOfItsLine) {
+  // A cup's wall alone, of radius 1: what lies within it, up to its height, is inside.
+  const Scene scene = PovFile(
+                          "intersection { box { <-0.1, 0, -0.1>, <0.1, 2, 0.1> } "
+                          "lathe { linear_spline 2, <1, 0>, <1, 1> } }")
+                          .load();
+  ASSERT_FALSE(scene.meshes.empty());
+  for (const V3f& p : scene.meshes[0].positions) EXPECT_LT(p.y, 1.01f);
+  EXPECT_GT(area(scene.meshes[0]), 0.7);
+}
+
+TEST(PovConvert, LargeUnionsTakeLinearTime) {
+  PovFile file("union { #for (I, 1, 100000) sphere { I, 0.5 } #end }");
+  EXPECT_EQ(file.load().instances.size(), 100000u);
+}
+
+// ---- textures ----------------------------------------------------------------------------------
+
+TEST(PovConvert, TrianglesKeepTheirOwnTextures) {
+  const std::string red = "texture { pigment { rgb <1, 0, 0> } finish { diffuse 1 } }";
+  const std::string green = "texture { pigment { rgb <0, 1, 0> } finish { diffuse 1 } }";
+  const Scene mesh = PovFile("mesh { triangle { 0, x, y " + red + " } triangle { 0, y, z " + green +
+                             " } triangle { 0, z, x } }")
+                         .load();
+  EXPECT_EQ(mesh.instances.size(), 3u);
+  const Scene mesh2 = PovFile("mesh2 { vertex_vectors { 4, 0, x, y, z } texture_list { 2, " + red +
+                              green + " } face_indices { 2, <0, 1, 2>, 0, <0, 2, 3>, 1 } }")
+                          .load();
+  ASSERT_EQ(mesh2.instances.size(), 2u);
+  EXPECT_EQ(mesh2.materials[static_cast<std::size_t>(mesh2.instances[1].material)].base_color,
+            lumivec::Color(0, 1, 0));
+}
+
+TEST(PovConvert, APigmentBeginsWithThatOfItsTexture) {
+  const std::string blue =
+      "#declare T = texture { pigment { rgb <0, 0, 1> } finish { diffuse 1 } }\n";
+  const Scene scaled = PovFile(blue + "sphere { 0, 1 texture { T pigment { scale 2 } } }").load();
+  EXPECT_EQ(scaled.materials.at(0).base_color, lumivec::Color(0, 0, 1));
+  const Scene usual = PovFile(
+                          "#default { pigment { rgb <0, 0, 1> } finish { diffuse 1 } }\n"
+                          "sphere { 0, 1 pigment { scale 2 } }")
+                          .load();
+  EXPECT_EQ(usual.materials.at(0).base_color, lumivec::Color(0, 0, 1));
+}
+
+TEST(PovConvert, EqualTexturesAreOneMaterial) {
+  const Scene scene = PovFile("#for (I, 1, 9) sphere { I, 0.1 pigment { rgb 1 } } #end").load();
+  EXPECT_EQ(scene.instances.size(), 9u);
+  EXPECT_EQ(scene.materials.size(), 1u);
+}
+
+TEST(PovConvert, WhatIsLeftOutIsSaid) {
+  PovFile file(
+      "sphere { 0, 1 pigment { rgb 1 } finish { phong 1 metallic brilliance 2 } "
+      "interior_texture { pigment { rgb 0 } } }\n"
+      "blob { threshold 0.5 sphere { 0, 1, 1 pigment { rgb 1 } } }\n"
+      "light_source { 5 rgb 1 spotlight tightness 10 }");
+  file.load();
+  for (const char* words : {"metallic", "brilliance", "interior_texture", "blob", "tightness"})
+    EXPECT_TRUE(file.warns(words)) << words;
+}
+
+// ---- height fields -----------------------------------------------------------------------------
+
+// Grey, 4 by 3 pixels that rise from black to white along x.
+std::string ramp() {
+  const std::string hex =
+      "89504e470d0a1a0a0000000d4948445200000004000000030800000000919ff11a0000001049444154789c636008"
+      "5d"
+      "f59f014e000027e705fb5fba1cae0000000049454e44ae426082";
+  std::string bytes;
+  for (std::size_t i = 0; i < hex.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+  return bytes;
+}
+
+TEST(PovConvert, AHeightFieldIsItsPicture) {
+  PovFile file("height_field { \"ramp.png\" }");
+  file.write("ramp.png", ramp());
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  const Mesh& mesh = scene.meshes[0];
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  for (const V3f& p : mesh.positions) EXPECT_NEAR(p.y, p.x, 1e-6f);
+  EXPECT_NEAR(area(mesh), std::numbers::sqrt2, 1e-5);
+  for (const auto& t : mesh.triangles) {
+    const V3f up = (mesh.positions[t.y] - mesh.positions[t.x])
+                       .cross(mesh.positions[t.z] - mesh.positions[t.x]);
+    EXPECT_GT(up.y, 0.0f);
+  }
+}
+
+TEST(PovConvert, UnderWaterAHeightFieldEnds) {
+  PovFile file("height_field { \"ramp.png\" water_level 0.5 smooth }");
+  file.write("ramp.png", ramp());
+  EXPECT_EQ(file.load().meshes.at(0).triangles.size(), 8u);
+}
+
+TEST(PovConvert, APictureOfAHeightFieldIsBounded) {
+  PovFile file("height_field { \"huge.png\" }");
+  std::string huge = ramp();
+  // 60000 pixels wide and high, with the header's checksum.
+  huge.replace(16, 8, std::string("\0\0\xea\x60\0\0\xea\x60", 8));
+  huge.replace(29, 4, "\xa5\xb9\x2a\x9e");
+  file.write("huge.png", huge);
+  EXPECT_NE(file.error().find("--max-bytes"), std::string::npos);
+  PovFile text("height_field { \"text.png\" }");
+  text.write("text.png", "no picture");
+  text.load();
+  EXPECT_TRUE(text.warns("text.png"));
+}
+
+// ---- cameras -----------------------------------------------------------------------------------
+
+// Measured with POV-Ray 3.7: a box of known size was rendered, and its pixels counted.
+void expect_view(const std::string& camera, double width, double height) {
+  const Scene scene = PovFile("camera { " + camera + " } sphere { 0, 1 }").load();
+  EXPECT_NEAR(2.0 * scene.cameras.at(0).xmag, width, 0.01 * width) << camera;
+  EXPECT_NEAR(2.0 * scene.cameras.at(0).ymag, height, 0.01 * height) << camera;
+}
+
+TEST(PovConvert, OrthographicViewsAreAsWideAsTheAngleOrTheDistanceSays) {
+  const std::string there = "orthographic location <0, 0, -10> ";
+  const double wide = 2.0 * 10.0 * std::tan(std::numbers::pi / 12.0);
+  expect_view(there + "look_at 0 right 4 * x * 1.333 up 4 * y", 5.332, 4.0);
+  expect_view(there + "look_at 0 angle 30", wide, wide / 1.33);
+  expect_view("orthographic angle 30 location <0, 0, -10> look_at 0", wide, wide / 1.33);
+  expect_view(there + "look_at 0 right 6 * x * 1.333 up 6 * y angle 30", wide, wide / 1.333);
+  expect_view(there + "angle 30 look_at 0 right 6 * x * 1.333 up 6 * y", wide, wide / 1.333);
+  expect_view(there + "look_at 0", 13.3, 10.0);
+  expect_view(there, 14.63, 11.0);  // it looks at z
+  expect_view(there + "direction 3 * z look_at 0", 13.3 / 3.0, 10.0 / 3.0);
+  expect_view(there + "look_at 0 up 8 * y", 1.33, 8.0);
+}
+
+// ---- numbers that are none ---------------------------------------------------------------------
+
+TEST(PovConvert, NumbersThatAreNotFiniteAreErrors) {
+  const std::string infinite = "1e300 * 1e300", sphere = "sphere { 0, 1 }\n";
+  const std::string words = "not finite";
+  expect_error(sphere + "light_source { " + infinite + " rgb 1 }", words);
+  expect_error(sphere + "light_source { 5 rgb " + infinite + " }", words);
+  expect_error(sphere + "light_source { 5 rgb 1 area_light " + infinite + " * x, y, 2, 2 }", words);
+  expect_error(sphere + "camera { location " + infinite + " }", words);
+  expect_error(sphere + "camera { right " + infinite + " * x }", words);
+  expect_error("sphere { 0, 1 pigment { rgb 1 } finish { emission " + infinite + " } }", words);
+  expect_error("mesh { triangle { 0, x, " + infinite + " * y } }", words);
+  expect_error("triangle { 0, x, 1e300 * y }", words);
+  expect_error(sphere + "background { rgb " + infinite + " }", words);
+}
+
+}  // namespace

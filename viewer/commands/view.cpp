@@ -1,0 +1,11 @@
+#include "viewer/commands/view.h"
+
+namespace lumivec {
+
+int run_view(const ViewOptions& options) {
+  WindowOptions window = options.window;
+  if (!options.source.file.empty()) window.scene = options.source;
+  return run_window(window);
+}
+
+}  // namespace lumivec

@@ -1,0 +1,226 @@
+#include "viewer/window/window.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/errors.h"
+#include "viewer/interrupt.h"
+#include "viewer/window/camera_keys.h"
+#include "viewer/window/script_player.h"
+
+namespace fs = std::filesystem;
+
+namespace lumivec {
+namespace {
+
+constexpr int least_width = 320, least_height = 240;
+constexpr float letter_height = 13.0f;  // of Dear ImGui's own font, and its multiples
+constexpr double longest_wait = 0.25;   // seconds without any event
+constexpr double message_seconds = 5.0;
+constexpr double seconds_a_key = 2.0;  // of a camera path that is played
+
+Window& window_of(GLFWwindow* handle) {
+  return *static_cast<Window*>(glfwGetWindowUserPointer(handle));
+}
+
+PictureSize first_size(const WindowOptions& options, const WindowSettings& settings) {
+  if (options.size) return *options.size;
+  if (settings.width > 0 && settings.height > 0) return {settings.width, settings.height};
+  return {usual_width, usual_height};
+}
+
+fs::path settings_file(const WindowOptions& options) {
+  return options.remember ? settings_place() : fs::path();
+}
+
+}  // namespace
+
+Window::Window(const WindowOptions& options)
+    : options_(options),
+      settings_file_(settings_file(options)),
+      gl_([&] {
+        if (!settings_file_.empty()) state_.settings = read_settings(settings_file_);
+        const PictureSize size = first_size(options, state_.settings);
+        return GlWindow(size.width, size.height, "lumivec", true);
+      }()),
+      engine_([] { glfwPostEmptyEvent(); }) {
+  GLFWwindow* window = gl_.handle();
+  glfwSetWindowSizeLimits(window, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwSwapInterval(1);
+
+  DisplayOptions display = options.display;
+  try {
+    const bool usual = display.config.empty() || display.config == "builtin";
+    if (usual && display.display.empty() && display.view.empty()) {
+      DisplayOptions remembered = display;
+      remembered.display = state_.settings.display;
+      remembered.view = state_.settings.view;
+      display_ = std::make_unique<GpuDisplay>(remembered);
+    }
+  } catch (const UsageError&) {
+    // The configuration has changed since: its defaults will do.
+  }
+  if (!display_) display_ = std::make_unique<GpuDisplay>(display);
+
+  state_.look.exposure = options.exposure;
+  if (options.terms != 0) state_.terms = options.terms;
+  if (options.pixel_size > 0) state_.settings.pixel_size = options.pixel_size;
+  state_.knobs.threads = options.threads;
+  state_.knobs.seed = options.seed;
+  engine_.set_knobs(state_.knobs);
+
+  glfwSetWindowUserPointer(window, this);
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+    window_of(w).on_key(key, action, modifiers);
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int modifiers) {
+    window_of(w).on_button(button, action, modifiers);
+  });
+  glfwSetCursorPosCallback(window,
+                           [](GLFWwindow* w, double x, double y) { window_of(w).on_move(x, y); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { window_of(w).on_wheel(y); });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** files) {
+    if (count > 0) window_of(w).on_drop(files[0]);
+  });
+  glfwSetWindowFocusCallback(
+      window, [](GLFWwindow* w, int focused) { window_of(w).on_focus(focused == GLFW_TRUE); });
+
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::StyleColorsDark();
+  float scale_x = 1.0f, scale_y = 1.0f;
+  glfwGetWindowContentScale(window, &scale_x, &scale_y);
+  const float scale = state_.settings.interface_scale > 0.0f ? state_.settings.interface_scale
+                                                             : std::max(1.0f, scale_x);
+  ImFontConfig font;
+  font.SizePixels = std::round(letter_height * scale);
+  text_size_ = font.SizePixels;
+  ImGui::GetIO().Fonts->AddFontDefault(&font);
+  ImGui::GetStyle().ScaleAllSizes(scale);
+  // They call what was there before: what is above.
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+
+  if (!options.script.empty()) script_ = std::make_unique<ScriptPlayer>(options.script, *this);
+  if (options.scene) {
+    opening_ = options.scene->file;
+    engine_.open(*options.scene);
+  }
+}
+
+Window::~Window() {
+  still_.cancel();
+  reference_render_.cancel();
+  display_.reset();
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+int Window::run() {
+  const InterruptGuard interrupt;
+  while (!glfwWindowShouldClose(gl_.handle()) && !state_.quit && !interrupt.requested()) {
+    const bool busy = script_ || navigator_.flying() || path_begun_ >= 0.0;
+    if (busy) {
+      glfwPollEvents();
+    } else {
+      glfwWaitEventsTimeout(longest_wait);
+    }
+    if (script_ && !script_->step()) script_.reset();
+    follow_engine();
+    follow_renders();
+    follow_files();
+    layout();
+    move_eye();
+    perform_wishes();
+    ask_engine();
+    render_reference();
+    if (iconified_) {
+      if (busy) glfwWaitEventsTimeout(0.01);  // nothing is shown that would take its time
+      continue;
+    }
+    upload_pictures();
+    make_histogram();
+    draw();
+    glfwSwapBuffers(gl_.handle());
+  }
+  if (!settings_file_.empty()) {
+    if (!glfwGetWindowMonitor(gl_.handle()))
+      glfwGetWindowSize(gl_.handle(), &state_.settings.width, &state_.settings.height);
+    if (options_.display.config.empty()) {
+      state_.settings.display = display_->names().chosen.display;
+      state_.settings.view = display_->names().chosen.view;
+    }
+    write_settings(settings_file_, state_.settings);
+  }
+  return interrupt.requested() ? exit_interrupted : exit_success;
+}
+
+void Window::say(const std::string& message, bool is_error) {
+  state_.message = message;
+  state_.message_is_error = is_error;
+  state_.message_until = now() + message_seconds;
+}
+
+void Window::move_eye() {
+  if (navigator_.flying()) {
+    constexpr double faster = 4.0, slower = 0.25;
+    const double factor = (shift_down_ ? faster : 1.0) * (alt_down_ ? slower : 1.0);
+    if (flown_at_ >= 0.0) navigator_.fly(now() - flown_at_, factor, state_.camera);
+    flown_at_ = now();
+  } else {
+    flown_at_ = -1.0;
+  }
+  if (path_begun_ < 0.0) return;
+  const double place = (now() - path_begun_) / seconds_a_key;
+  state_.camera = camera_between(state_.path_keys, place);
+  if (place >= double(state_.path_keys.size() - 1)) path_begun_ = -1.0;
+}
+
+void Window::ask_engine() {
+  engine_.set_knobs(state_.knobs);
+  if (!status_.scene) return;
+  constexpr double most_pixels = 600'000.0;  // that an engine follows a moving eye with
+  int size = state_.settings.pixel_size;
+  if (size == 0) {
+    const double pixels = double(viewport_.width) * double(viewport_.height);
+    size = std::max(1, int(std::ceil(std::sqrt(pixels / most_pixels) - 0.05)));
+  }
+  figures_.pixel_size = size;
+  ViewRequest request;
+  request.scene = status_.scene_number;
+  request.camera = state_.camera.camera();
+  request.width = iconified_ ? 0 : std::max(1, viewport_.width / size);
+  request.height = iconified_ ? 0 : std::max(1, viewport_.height / size);
+  request.terms = state_.terms;
+  request.frame_time = state_.settings.frame_time;
+  // A still has the machine for itself once the view rests.
+  const bool idle = state_.paused || still_.state().running;
+  request.rest_samples = idle ? 0.0 : state_.settings.rest_samples;
+  request.records = state_.show_records;
+  request.layers = state_.settings.panels || state_.show_inspector || state_.show_records ||
+                   state_.layer != Layer::light;
+  request.compare = state_.wipe && state_.layer == Layer::light;
+  request.pick = pick_;
+  engine_.request(request);
+  asked_ = {request.width, request.height};
+  figures_.resting = status_.resting;
+}
+
+bool Window::shows_current_view() const {
+  const EnginePicture& picture = engine_.picture();
+  return picture.scene == status_.scene_number && picture.width > 0 &&
+         picture.width == asked_.width && picture.height == asked_.height &&
+         same_view(picture.camera, state_.camera.camera());
+}
+
+int run_window(const WindowOptions& options) {
+  Window window(options);
+  return window.run();
+}
+
+}  // namespace lumivec

@@ -1,0 +1,171 @@
+// The insides of run_window: one object that the loop, the actions of keys and the replayed events
+// share.
+#pragma once
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "viewer/window/background_render.h"
+#include "viewer/window/engine_thread.h"
+#include "viewer/window/file_watch.h"
+#include "viewer/window/gl_window.h"
+#include "viewer/window/gpu_display.h"
+#include "viewer/window/key_table.h"
+#include "viewer/window/navigator.h"
+#include "viewer/window/panels.h"
+#include "viewer/window/window_app.h"
+#include "viewer/window/window_state.h"
+
+namespace lumivec {
+
+class ScriptPlayer;
+
+constexpr int usual_width = 1120, usual_height = 720;  // of a first window, screen units
+
+class Window {
+ public:
+  explicit Window(const WindowOptions& options);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  int run();
+
+  // ---- for replayed events ----------------------------------------------------------------------
+  GLFWwindow* handle() const { return gl_.handle(); }
+  WindowState& state() { return state_; }
+  const WindowFigures& figures() const { return figures_; }
+  EngineStatus status() const { return engine_.status(); }
+  const EnginePicture& picture() const { return engine_.picture(); }
+  bool still_running() const { return still_.state().running; }
+  bool shows_current_view() const;
+  double first_picture_seconds() const { return first_picture_; }
+  std::size_t edits_done() const { return edits_.done(); }
+  // Where the mouse is for the panels, instead of where it really is; and which buttons are down.
+  struct ScriptMouse {
+    double x = 0.0, y = 0.0;
+    std::array<bool, 3> down{};
+  };
+  std::optional<ScriptMouse> script_mouse;
+  // At the end of the next frame: the whole window is written there.
+  std::filesystem::path shot_file;
+  // In the next frame: the picture is compared with DisplayTransform's; afterwards the largest
+  // difference in steps of 1/255, or -1 while it has not been made.
+  bool check_display = false;
+  double display_difference = -1.0;
+
+  // ---- what GLFW calls --------------------------------------------------------------------------
+  void on_key(int key, int action, int modifiers);
+  void on_button(int button, int action, int modifiers);
+  void on_move(double x, double y);
+  void on_wheel(double steps);
+  void on_drop(const std::filesystem::path& file);
+  void on_focus(bool focused);
+
+ private:
+  void perform(const KeyAction& action);
+  void perform_view(const KeyAction& action);
+  void perform_picture(const KeyAction& action);
+  void perform_wishes();
+  void apply_edit(const std::shared_ptr<const LoadedScene>& scene);
+
+  void open(const std::filesystem::path& file, bool keep_camera);
+  void follow_engine();
+  void take_scene(const EngineStatus& status);
+  void take_picture();
+  void take_layers();
+  void upload_pictures();
+  void make_histogram();
+  void follow_renders();
+  void follow_files();
+  void move_eye();
+  void ask_engine();
+  void render_reference();
+
+  void layout();
+  void draw();
+  void draw_picture();
+  void after_picture();  // screenshots and checks of what the picture's part shows
+  void draw_interface();
+  void write_shot();
+
+  void say(const std::string& message, bool is_error = false);
+  void set_display(const DisplayOptions& display);
+  void write_path();
+  void set_full_screen(bool full);
+  double now() const { return glfwGetTime(); }
+  bool mouse_on_picture() const;
+
+  const WindowOptions options_;
+  WindowState state_;
+  std::filesystem::path settings_file_;
+  GlWindow gl_;
+  std::unique_ptr<GpuDisplay> display_;
+  EngineThread engine_;
+  BackgroundRender still_, reference_render_;
+  std::unique_ptr<ScriptPlayer> script_;
+  Navigator navigator_;
+  FileWatch watch_;
+  SceneEdits edits_;
+
+  // What is known of the engine.
+  EngineStatus status_;
+  std::uint64_t scene_seen_ = 0, opened_seen_ = 0, error_seen_ = 0;
+  int stills_seen_ = 0, references_seen_ = 0;
+  std::shared_ptr<const LoadedScene> edited_;  // that the engine has not taken over yet
+  PictureSize asked_;                          // of the engine
+  std::optional<std::filesystem::path> opening_;
+  bool pivot_pending_ = false;
+  std::uint64_t picks_ = 0, pick_seen_ = 0;
+  PickQuestion pick_;
+
+  // The picture's part of the window: screen units, and pixels from the lower left corner.
+  int window_width_ = 1, window_height_ = 1;
+  int canvas_width_ = 1, canvas_height_ = 1;
+  float picture_width_ = 1.0f, picture_height_ = 1.0f;
+  Viewport viewport_;
+  float text_size_ = 13.0f;
+  bool iconified_ = false;
+  std::array<int, 4> windowed_{};  // place and size before full screen
+
+  WindowFigures figures_;
+  double picture_at_ = 0.0, moved_at_ = 0.0, first_picture_ = -1.0;
+  std::uint64_t picture_seen_ = 0;
+  Histogram histogram_;
+  double histogram_at_ = -1.0;
+  std::array<double, term_count> shares_{};
+  // What has been given to the graphics card: of which picture, and what was made of it.
+  struct Uploaded {
+    std::uint64_t picture = 0, layers = 0;
+    Layer layer = Layer::light;
+    bool errors = false;
+
+    bool operator==(const Uploaded&) const = default;
+  };
+  Uploaded uploaded_;
+  std::uint64_t layers_taken_ = 0;
+  // A path-traced picture and the view that it is of.
+  struct Reference {
+    Camera camera;
+    std::uint32_t terms = 0;
+    std::uint64_t scene = 0;
+    int width = 0, height = 0;
+  };
+  std::vector<Color> reference_pixels_;  // of the render's thread until that has ended
+  Reference reference_;
+  bool reference_ready_ = false;
+
+  double mouse_x_ = 0.0, mouse_y_ = 0.0;
+  double click_at_ = -1.0, click_x_ = 0.0, click_y_ = 0.0;
+  bool wipe_drag_ = false;
+  bool shift_down_ = false, alt_down_ = false;
+  double flown_at_ = -1.0;
+  double path_begun_ = -1.0;
+  double watched_at_ = 0.0;
+};
+
+}  // namespace lumivec
