@@ -164,6 +164,7 @@ class EngineThread::Worker {
     picture.width = width_;
     picture.height = height_;
     picture.camera = view.camera;
+    picture.terms = view.terms;
     picture.pivot = engine_->pivot();
     picture.samples = samples_;
     picture.records = engine_->statistics().records;

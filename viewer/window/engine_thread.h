@@ -70,7 +70,8 @@ struct EnginePicture {
   std::uint64_t number = 0;
   int width = 0, height = 0;
   Camera camera;
-  std::vector<Color> pixels;    // radiance of the terms that were asked for
+  std::uint32_t terms = 0;
+  std::vector<Color> pixels;    // radiance of those terms
   std::vector<Color> compared;  // the same by path tracing; empty unless asked for
   WalkEngine::Frame figures;
   V3d pivot{0.0};        // WalkEngine::pivot

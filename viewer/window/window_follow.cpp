@@ -157,7 +157,7 @@ void Window::upload_pictures() {
   const bool light = state_.layer == Layer::light;
   const bool errors = light && state_.error_map && reference_ready_ &&
                       reference_.width == picture.width && reference_.height == picture.height &&
-                      reference_.terms == state_.terms &&
+                      reference_.terms == picture.terms &&
                       same_view(reference_.camera, picture.camera);
   const Uploaded wanted = {light ? picture.number : 0, light ? 0 : layers_taken_, state_.layer,
                            errors};
