@@ -98,6 +98,7 @@ void CacheBuilder::set_error(double error) {
   const double passes = std::ceil(paths / cells_.count());
   passes_ = static_cast<std::uint32_t>(std::clamp(passes, 1.0, double(most_passes)));
   most_variance_ = static_cast<float>(most_noise * most_noise * error * error);
+  cache_.set_error(error);
   gather_.emplace(tracer_, scene_, settings_.validity_parts, budget_, term_);
 }
 

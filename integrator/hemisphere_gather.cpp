@@ -316,6 +316,8 @@ void HemisphereGather::refine(IrradianceRecord& r, const RecordRequest& request,
   h.sum(frame);
   h.differentiate();
   const float share = 1.0f / static_cast<float>(r.passes + 1);
+  const float brightness_before = r.passes > 0 ? mean(r.light.irradiance(r.normal)) : 0.0f;
+  const float brightness_here = mean(h.light.irradiance(r.normal));
   const auto blend = [share](auto& old, const auto& fresh) {
     old = old * (1.0f - share) + fresh * share;
   };
@@ -325,7 +327,14 @@ void HemisphereGather::refine(IrradianceRecord& r, const RecordRequest& request,
     blend(r.curvature[c], h.curvature[c]);
   }
   blend(r.light.flux, h.light.flux);
-  r.variance = r.variance * (1.0f - share) * (1.0f - share) + h.variance * share * share;
+  // Relative to the mean of all hemispheres: beside its own, one that met something bright by
+  // chance would not look noisy.
+  const auto squared = [](float x) { return x * x; };
+  const float brightness = mean(r.light.irradiance(r.normal));
+  r.variance = brightness > 0.0f ? (r.variance * squared((1.0f - share) * brightness_before) +
+                                    h.variance * squared(share * brightness_here)) /
+                                       squared(brightness)
+                                 : share;
   if (r.passes == 0) {
     r.clearance = h.clearance;
     r.mean_distance = h.mean_distance;

@@ -52,6 +52,11 @@ float IrradianceCache::least_reach(float footprint, float budget) {
   return least_pixels * footprint / std::sqrt(std::sqrt(budget));
 }
 
+void IrradianceCache::set_error(double error) {
+  constexpr double usual = 0.01;
+  least_share_ = static_cast<float>(std::sqrt(std::min(1.0, error / usual)));
+}
+
 std::uint64_t IrradianceCache::bytes() const {
   return tree_.bytes() + records_.bytes();
 }
@@ -74,7 +79,8 @@ bool IrradianceCache::insert(const IrradianceRecord& record) {
 }
 
 float IrradianceCache::least_half_axis(const IrradianceRecord& r, float footprint) const {
-  return parts_.footprint_clamp ? std::min(least_pixels * footprint, r.mean_distance) : 0.0f;
+  if (!parts_.footprint_clamp) return 0.0f;
+  return std::min(least_share_ * least_pixels * footprint, r.mean_distance);
 }
 
 // 1 at the record, 0 from the rim of its ellipse on, and smooth in between.

@@ -56,6 +56,9 @@ class IrradianceCache {
   bool full() const;
   // How far a record must be looked for so that it serves pixels of that size at that budget.
   static float least_reach(float footprint, float budget);
+  // The relative error that is aimed at: below one percent detail as fine as pixels is asked for,
+  // and finer. Not while others look up.
+  void set_error(double error);
   // Half axes are not shorter where a record is used for pixels of that size, scene units.
   float least_half_axis(const IrradianceRecord& r, float footprint) const;
   std::uint64_t bytes() const;
@@ -77,6 +80,7 @@ class IrradianceCache {
   const TracedScene& scene_;
   const ValidityParts parts_;
   const std::uint64_t max_bytes_;
+  float least_share_ = 1.0f;  // of what half axes are at least, usually
   PointTree tree_;
   StableArray<IrradianceRecord> records_;
 };

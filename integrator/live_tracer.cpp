@@ -369,6 +369,20 @@ V3d LiveTracer::pivot(const VisibleSurfaces& seen) const {
                                         seen.depth[pixel]));
 }
 
+std::size_t LiveTracer::instance_count() const {
+  return state_->traced->instances().size();
+}
+
+float LiveTracer::curvature(int instance) const {
+  const TracedInstance& i = state_->traced->instances()[static_cast<std::size_t>(instance)];
+  if (i.sphere >= 0) {
+    const TracedSphere& s = state_->traced->spheres()[static_cast<std::size_t>(i.sphere)];
+    const bool inside = (s.center - state_->view->plane().eye).length() < s.radius;
+    return (inside ? -1.0f : 1.0f) / s.radius;
+  }
+  return i.mesh && i.flat_shaded ? 0.0f : std::numeric_limits<float>::quiet_NaN();
+}
+
 const CameraView& LiveTracer::view(int views_ago) const {
   return views_ago == 0 ? *state_->view : *state_->last_view;
 }
@@ -408,7 +422,7 @@ void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
       }
       RenderStatistics counts;
       s.tracer->render_ranges(picture, ranges, sums, counts, use);
-      for (std::size_t i = 0; i < count; ++i) samples[first + i] = {sums[i].terms, ranges[i].pixel};
+      for (std::size_t i = 0; i < count; ++i) samples[first + i] = {sums[i].terms, ranges[i].pixel, sums[i].mirrored};
       const std::lock_guard lock(s.mutex);
       s.statistics.add_counts(counts);
     });

@@ -20,6 +20,9 @@ namespace lumivec {
 struct LiveSample {
   std::array<Color, term_count> terms;  // radiance, cd·m⁻²
   std::uint32_t pixel = 0;
+  // Of what the first hit's specular lobe shows: 1 / its distance from there, scene units⁻¹; or
+  // shows_nothing, shows_by_refraction (integrator/visible_surfaces.h).
+  float mirrored = shows_nothing;
 };
 
 // What to trace: samples of a pixel are numbered from 0 on, and no number gives the same twice.
@@ -66,6 +69,11 @@ class LiveTracer {
   // Where the eye looks: what it sees in the middle, world space; the scene's middle if nothing is
   // there.
   V3d pivot(const VisibleSurfaces& seen) const;
+
+  std::size_t instance_count() const;
+  // How an instance curves toward the eye of the present view, scene units⁻¹: 1 / radius of what
+  // bulges, negative of hollows, 0 of what is flat. NaN: it is neither a sphere nor flat.
+  float curvature(int instance) const;
 
   // The view that was set last but `views_ago` (0 or 1), and how its pixels lie in traced space
   // (world space less origin()).

@@ -158,6 +158,8 @@ struct Lane {
   V3f normal{0.0f}, position{0.0f};
   float hit_depth = 0.0f;
   std::int32_t object = -1;
+  bool follows_mirror = false;  // left the first hit by a specular lobe, until it hits what that shows
+  float mirrored = shows_nothing;
 
   Lane() { radiance.fill(Color(0.0f)); }
 
@@ -555,6 +557,10 @@ class PathStream {
     Lane& lane = lanes_[i];
     const RayHit& hit = hits_[i];
     lane.even_cached = false;
+    if (lane.follows_mirror) {
+      lane.mirrored = hit.valid() ? 1.0f / hit.distance : 0.0f;
+      lane.follows_mirror = false;
+    }
     if (!hit.valid()) {
       gathered_ == Term::direct ? add_even_environment(lane) : add_environment(lane);
       lane.ended = true;
@@ -639,8 +645,8 @@ class PathStream {
     query.position = point.position;
     query.geometric_normal = point.geometric_normal;
     query.error = point.error;
-    query.radius = std::min((seen ? photon_pixels : 1.0f) * footprint(lane),
-                            longest_photon_radius * t_.scene_.radius());
+    query.most_radius = longest_photon_radius * t_.scene_.radius();
+    query.radius = std::min((seen ? photon_pixels : 1.0f) * footprint(lane), query.most_radius);
     query.gathering = !seen;
     query.glossy = !lane.caustic.broad;
     query.seed = hash_combine(hash_combine(lane.seed, lane.sample),
@@ -801,7 +807,7 @@ class PathStream {
     lane.term = Term::emitted;
     lane.caustic = CausticState();
     lane.caustic.photons = cache_.photons != nullptr;
-    lane.probe = false;
+    lane.probe = lane.follows_mirror = false;
     lane.length = fork.length;
     lane.light_trials = 0.0f;
     lane.radiance_scale = 1.0f;
@@ -940,6 +946,11 @@ class PathStream {
       lane.probe_bent = false;
     }
     lane.caustic.event(s.kind, straight_through, next);
+    if (lane.depth == 0 && s.kind == LobeKind::specular) {
+      const bool refracted = s.transmitted && !parameters.thin_walled;
+      lane.follows_mirror = !refracted && lane.mirrored == shows_nothing;
+      if (refracted) lane.mirrored = shows_by_refraction;
+    }
     ++lane.depth;
     // Shadow rays pass thin walls too: light sampling at the last vertex competes with this path
     // still, weighted by the density there, as it is itself.
@@ -994,6 +1005,7 @@ class PathStream {
     const float traced = brightness - lane.photons;
     sums.traced_squares += traced * traced;
     sums.photons += lane.photons;
+    sums.mirrored = lane.mirrored;
     sums.albedo += lane.albedo;
     sums.normal += lane.normal;
     ++sums.samples;

@@ -22,6 +22,7 @@
 #include "integrator/photon_map.h"
 #include "integrator/pixel_filter.h"
 #include "integrator/settings.h"
+#include "integrator/visible_surfaces.h"
 
 namespace lumivec {
 
@@ -39,6 +40,7 @@ struct PixelSums {
   float squares = 0.0f;         // of the samples' brightness, the mean of the channels of all terms
   float traced_squares = 0.0f;  // likewise without what photons brought
   float photons = 0.0f;         // the samples' brightness that photons brought
+  float mirrored = shows_nothing;  // vergence of what the last sample's specular lobe shows
 
   PixelSums() { terms.fill(Color(0.0f)); }
 };

@@ -15,10 +15,10 @@ namespace {
 // Discs' areas fall with the number n of the map as the product of (i + α) / (i + 1) (Knaus and
 // Zwicker 2011, eq. 15): as its square root, so that both noise and bias of the mean keep falling.
 constexpr double area_rate = 0.5;
-// Discs need no more photons than this in the first map; of paths that gather light, which see one
-// in so many.
+// Discs need no more photons than this in the first map; those of paths that gather light, fewer.
 constexpr float enough_seen = 128.0f, enough_gathered = 8.0f;
-constexpr std::uint32_t few_stride = 16;
+// Where paths that gather light find fewer, they look in discs so many times as wide.
+constexpr float radius_growth = 4.0f;
 // Photons count if they are no further off the tangent plane than this share of the radius, and if
 // their surface leans no more than this.
 constexpr float off_plane_share = 0.2f;
@@ -42,14 +42,15 @@ float kernel_share(float t) {
 }  // namespace
 
 void PhotonMap::build(std::vector<Photon> photons, std::uint64_t paths, std::uint32_t number,
-                      float widen) {
+                      float widen, std::uint32_t gather_stride) {
   photons_ = std::move(photons);
   std::vector<V3f> positions;
   positions.reserve(photons_.size());
   for (const Photon& p : photons_) positions.push_back(p.position);
   tree_.assign(positions);
   std::vector<V3f> few;
-  for (std::size_t i = 0; i < positions.size(); i += few_stride) few.push_back(positions[i]);
+  gather_stride_ = gather_stride;
+  for (std::size_t i = 0; i < positions.size(); i += gather_stride) few.push_back(positions[i]);
   few_tree_.assign(few);
   flux_scale_ = paths > 0 ? static_cast<float>(1.0 / static_cast<double>(paths)) : 0.0f;
   double area = widen;
@@ -107,19 +108,29 @@ PhotonLight PhotonMap::reflect(const PhotonQuery& query, const Bsdf& bsdf,
   if (photons_.empty()) return light;
   const Frame frame = make_frame(query.geometric_normal);
   float radius = query.radius * std::sqrt(shrink_);
-  found.clear();
-  const std::uint32_t stride = query.gathering ? few_stride : 1;
+  const std::uint32_t stride = query.gathering ? gather_stride_ : 1;
   const PointTree& tree = query.gathering ? few_tree_ : tree_;
-  tree.for_each_within(query.position, radius, [&](std::uint32_t found_at, float distance2) {
-    const std::uint32_t i = found_at * stride;
-    const Photon& p = photons_[i];
-    if (std::abs(p.normal.dot(frame.n)) < least_normal_cosine) return;
-    if (std::abs((p.position - query.position).dot(frame.n)) > off_plane_share * radius) return;
-    if (query.max_events > 0 && p.events >= query.max_events) return;
-    found.push_back({i, distance2});
-  });
-  if (found.empty()) return light;
+  const auto search = [&] {
+    found.clear();
+    tree.for_each_within(query.position, radius, [&](std::uint32_t found_at, float distance2) {
+      const std::uint32_t i = found_at * stride;
+      const Photon& p = photons_[i];
+      if (std::abs(p.normal.dot(frame.n)) < least_normal_cosine) return;
+      if (std::abs((p.position - query.position).dot(frame.n)) > off_plane_share * radius) return;
+      if (query.max_events > 0 && p.events >= query.max_events) return;
+      found.push_back({i, distance2});
+    });
+  };
+  search();
   const float enough = std::max(1.0f, (query.gathering ? enough_gathered : enough_seen) * shrink_);
+  // Near where a path begins its footprint is smaller than what lies between photons: one that it
+  // happens to meet there would outshine all else that the path's record gathers.
+  const float most = query.most_radius * std::sqrt(shrink_);
+  while (query.gathering && radius < most && static_cast<float>(found.size()) < enough) {
+    radius = std::min(radius_growth * radius, most);
+    search();
+  }
+  if (found.empty()) return light;
   const float share = enough / static_cast<float>(found.size());
   if (share < 1.0f) radius *= std::sqrt(share);
   const float radius2 = radius * radius;

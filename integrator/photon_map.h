@@ -8,8 +8,8 @@
 // Knaus and Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach").
 //
 // Near walls and edges the disc is only as large as the surface under it: short rays along the
-// surface find where it ends. Paths that gather light, of which each counts for little, see a
-// sixteenth of the photons, and no edges. A look-up takes about 1 µs and 0.02 µs for each photon
+// surface find where it ends. Paths that gather light, of which each counts for little, see few
+// of the photons, and no edges. A look-up takes about 1 µs and 0.02 µs for each photon
 // found.
 #pragma once
 
@@ -38,6 +38,7 @@ struct PhotonQuery {
   V3f geometric_normal{0.0f};  // unit, on the eye's side
   float error = 0.0f;          // as in SurfacePoint
   float radius = 0.0f;         // of the disc in the first map, scene units
+  float most_radius = 0.0f;    // where photons are few, for paths that gather light
   bool gathering = false;      // for a path that gathers light
   bool glossy = true;          // whether photons over specular lobes count for the glossy lobe
   std::uint32_t seed = 0;      // of the directions in which edges are looked for
@@ -56,9 +57,11 @@ class PhotonMap {
   explicit PhotonMap(const TracedScene& scene) : scene_(scene) {}
 
   // Replaces all photons by those of `paths` light paths. number: of the map, from 0 on.
-  // widen: factor of the discs' area, for maps of few paths.
+  // widen: factor of the discs' area, for maps of few paths. gather_stride: paths that gather light
+  // see one photon in so many, ≥ 1.
   void build(std::vector<Photon> photons, std::uint64_t paths, std::uint32_t number,
-             float widen = 1.0f);
+             float widen = 1.0f, std::uint32_t gather_stride = usual_gather_stride);
+  static constexpr std::uint32_t usual_gather_stride = 16;
 
   bool empty() const { return photons_.empty(); }
   std::size_t bytes() const {
@@ -76,9 +79,10 @@ class PhotonMap {
 
   const TracedScene& scene_;
   std::vector<Photon> photons_;
-  PointTree tree_, few_tree_;  // of all photons, and of every few_stride-th
-  float flux_scale_ = 0.0f;    // one over the number of light paths
-  float shrink_ = 1.0f;        // of discs' areas, from the first map to this one
+  PointTree tree_, few_tree_;  // of all photons, and of every gather_stride_-th
+  std::uint32_t gather_stride_ = usual_gather_stride;
+  float flux_scale_ = 0.0f;  // one over the number of light paths
+  float shrink_ = 1.0f;      // of discs' areas, from the first map to this one
 };
 
 }  // namespace lumivec

@@ -52,6 +52,8 @@ constexpr double cache_share = 0.5;
 // again.
 constexpr double first_timed_error = 0.02;
 constexpr double timed_error_step = 0.7;
+// Pixels between those that show what a better cache changes.
+constexpr int probe_stride = 4;
 constexpr double progress_interval = 0.1;  // seconds
 
 using Clock = std::chrono::steady_clock;
@@ -355,7 +357,8 @@ class StillRender {
         statistics_(statistics),
         progress_(progress),
         film_(settings),
-        photons_(scene) {
+        photons_(scene),
+        record_photons_(scene) {
     target_ = settings.samples > 0 ? static_cast<std::uint32_t>(settings.samples)
                                    : (settings.seconds > 0.0 || settings.error > 0.0
                                           ? std::uint32_t{max_picture_samples}
@@ -388,7 +391,7 @@ class StillRender {
   }
 
   const Film& film() const { return film_; }
-  std::uint64_t photon_bytes() const { return photons_.bytes(); }
+  std::uint64_t photon_bytes() const { return photons_.bytes() + record_photons_.bytes(); }
 
  private:
   // The cache first, then the picture: everywhere alike to begin with, and after that where it is
@@ -401,14 +404,18 @@ class StillRender {
     if (by_time) cache_error = std::max(cache_error, first_timed_error);
     map_photons(1);
     build_cache(cache_error);
+    cache_error_ = cache_error;
     if (stop_ && !stopped_by_caller_)
       stop_ = false;  // out of time: one sample a pixel all the same
     std::uint32_t done = 0;
     const std::uint32_t even = std::min(target_, even_samples);
     while (done < target_ && !stop_) {
-      if (by_time && done >= even && cache_should_improve(cache_error)) {
+      if (by_time && done >= even && cache_should_improve()) {
         cache_error *= timed_error_step;
+        const std::vector<Color> before = probe();
         build_cache(cache_error);
+        // As if each further step changed as much less as this one was finer.
+        cache_error_ = change_since(before) * timed_error_step / (1.0 - timed_error_step);
         if (stop_) break;
       }
       const std::uint32_t left = done < even ? even - done : target_ - done;
@@ -435,11 +442,50 @@ class StillRender {
 
   // In a render that is limited by time, whether the error of cached light shows beside the noise
   // of samples, and there is time to use what is made.
-  bool cache_should_improve(double cache_error) const {
-    if (!builder_ || cache_error <= picture_error_) return false;
+  bool cache_should_improve() const {
+    if (!builder_ || cache_error_ <= picture_error_) return false;
     const double passed = seconds_since(start_);
     return statistics_.seconds_cache < 0.5 * passed &&
            statistics_.seconds_cache < settings_.seconds - passed;
+  }
+
+  // One sample of some of the pixels, by the same paths whenever it is asked for: only cached light
+  // makes a difference.
+  std::vector<Color> probe() const {
+    std::vector<std::vector<Color>> of_tiles(std::size_t(film_.tile_count()));
+    for_each(of_tiles.size(), [&](std::size_t t) {
+      const Tile tile = film_.tile(int(t));
+      std::vector<SampleRange> ranges;
+      for (int y = 0; y < tile.height; y += probe_stride) {
+        for (int x = 0; x < tile.width; x += probe_stride)
+          ranges.push_back({static_cast<std::uint32_t>(y * tile.width + x), 0, 1,
+                            static_cast<std::uint32_t>(ranges.size()), true});
+      }
+      std::vector<PixelSums> sums(ranges.size());
+      RenderStatistics counts;  // not of the picture
+      tracer_.render_ranges(tile, ranges, sums, counts, cache_use_);
+      for (const PixelSums& s : sums) {
+        Color light(0.0f);
+        for (const Color& term : s.terms) light += term;
+        of_tiles[t].push_back(light);
+      }
+    });
+    std::vector<Color> all;
+    for (const std::vector<Color>& some : of_tiles) all.insert(all.end(), some.begin(), some.end());
+    return all;
+  }
+
+  // √relMSE of what probe() was against what it is.
+  double change_since(const std::vector<Color>& before) const {
+    const std::vector<Color> now = probe();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      for (int c = 0; c < 3; ++c) {
+        const double d = double(now[i][c]) - before[i][c];
+        sum += d * d / (double(now[i][c]) * now[i][c] + 0.01);
+      }
+    }
+    return std::sqrt(sum / (3.0 * static_cast<double>(now.size())));
   }
 
   // Records for that relative error: their reach follows from it, and how many hemispheres each is
@@ -460,9 +506,10 @@ class StillRender {
     } else {
       if (direct_builder_) build_direct_cache(tiles, error, go_on);
       builder_->set_error(error);
-      builder_->set_photons(photons());
+      builder_->set_photons(photons_for_records(error));
       builder_->set_direct(direct_builder_ ? direct_builder_->use().direct : nullptr);
       builder_->build(tiles, go_on, statistics_);
+      builder_->set_photons(photons());
       cache_use_ = builder_->use();
     }
     statistics_.seconds_cache += seconds_since(begin);
@@ -598,8 +645,26 @@ class StillRender {
   // Light paths for a pass of so many samples a pixel, for the caches.
   void map_photons(std::uint32_t samples) {
     if (!light_tracer_.active()) return;
-    const std::uint64_t wanted =
+    const std::uint64_t paths =
         std::clamp(map_paths_per_sample * samples * film_.size(), least_map_paths, most_map_paths);
+    map_photons(photons_, paths, map_number_++, PhotonMap::usual_gather_stride);
+  }
+
+  // Light paths for records of that relative error. All records see the same: what these are off
+  // does not average out between them, as it does between passes.
+  const PhotonMap* photons_for_records(double error) {
+    const double finer = (0.01 / error) * (0.01 / error);
+    if (finer <= 1.0 || !light_tracer_.active()) return photons();
+    const double paths = finer * static_cast<double>(std::max(least_map_paths, film_.size()));
+    const double stride = std::max(1.0, double(PhotonMap::usual_gather_stride) / finer);
+    map_photons(record_photons_,
+                static_cast<std::uint64_t>(std::min(paths, double(most_map_paths))), 0,
+                static_cast<std::uint32_t>(stride));
+    return &record_photons_;
+  }
+
+  void map_photons(PhotonMap& map, std::uint64_t wanted, std::uint32_t number,
+                   std::uint32_t gather_stride) {
     std::vector<Photon> photons;
     std::uint64_t traced = 0;
     // A map that would take too much memory is made of fewer paths.
@@ -614,7 +679,7 @@ class StillRender {
     }
     map_paths_ += traced;
     statistics_.photons += photons.size();
-    photons_.build(std::move(photons), traced, map_number_++);
+    map.build(std::move(photons), traced, number, 1.0f, gather_stride);
   }
   const PhotonMap* photons() const { return light_tracer_.active() ? &photons_ : nullptr; }
 
@@ -670,11 +735,13 @@ class StillRender {
   PaperBuilder* const paper_builder_;
   CacheUse cache_use_;
   double picture_error_ = -1.0;
+  double cache_error_ = 0.0;  // of cached light, as nominal or, later, as measured
   const RenderSettings& settings_;
   RenderStatistics& statistics_;
   const ProgressCallback& progress_;
   Film film_;
-  PhotonMap photons_;
+  PhotonMap photons_,
+      record_photons_;           // what pixels see, and what records do if that is too coarse
   std::uint64_t map_paths_ = 0;  // light paths of all maps so far
   std::uint32_t map_number_ = 0;
   ErrorEstimate estimate_;

@@ -66,6 +66,25 @@ Reprojection::Reprojection(const CameraView& now, const VisibleSurfaces& seen_no
       width_(width),
       height_(height) {}
 
+bool Reprojection::find_mirrored(int x, int y, float vergence, float curvature,
+                                 V2f& place) const {
+  const float behind = vergence + 2.0f * curvature;
+  if (!(behind >= 0.0f)) return false;  // a real image, in front of a hollow mirror
+  const float column = static_cast<float>(x) + 0.5f, row = static_cast<float>(y) + 0.5f;
+  const std::size_t pixel = std::size_t(y) * std::size_t(width_) + std::size_t(x);
+  const V3f along = rays_.direction + rays_.direction_x * column + rays_.direction_y * row;
+  const V3f mirror = rays_.point(column, row, seen_.depth[pixel]);
+  const float distance = std::min(1.0f / behind, background_depth);
+  const PicturePlane& plane = plane_then_;
+  const V3f p = mirror + along * (distance / along.length()) - plane.eye;
+  const float z = p.dot(plane.forward);
+  if (!(z > rays_then_.near)) return false;
+  const float scale = plane.perspective ? 1.0f / z : 1.0f;
+  place = V2f(p.dot(plane.x_axis) * scale, p.dot(plane.y_axis) * scale) + plane.center - V2f(0.5f);
+  return place.x > -1.0f && place.y > -1.0f && place.x < static_cast<float>(width_) &&
+         place.y < static_cast<float>(height_);
+}
+
 void Reprojection::find(int left, int y, Taps& taps) const {
   const std::size_t first = std::size_t(y) * std::size_t(width_) + std::size_t(left);
   vint8 object, packed;

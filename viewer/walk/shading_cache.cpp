@@ -23,6 +23,11 @@ using OIIO::simd::vfloat8;
 // eye, and is trusted less.
 constexpr float most_samples = 16.0f;
 constexpr float most_specular_samples = 2.0f;
+// Where it is known how it moves, it is followed, if it is at least this share of the light.
+constexpr float most_mirrored_samples = 8.0f;
+constexpr float least_mirrored_share = 0.02f;
+// What a mirror shows is the same in two views if their vergences are, but for this share.
+constexpr float most_vergence_change = 0.25f;
 // Of four pixels around a place, those of other surfaces are left out; less than this share of
 // theirs is too little to go by.
 constexpr float least_share = 0.05f;
@@ -88,11 +93,16 @@ float noise_of(const LiveSample& sample, const float* lanes, float count) {
 }  // namespace
 
 ShadingCache::Shades::Shades(std::size_t pixels)
-    : shade(pixels), specular_samples(pixels, 0.0f), noise(pixels, 0.0f), age(pixels, 0) {}
+    : shade(pixels),
+      specular_samples(pixels, 0.0f),
+      mirrored(pixels, shows_nothing),
+      noise(pixels, 0.0f),
+      age(pixels, 0) {}
 
 void ShadingCache::Shades::clear(std::size_t pixel) {
   shade[pixel] = {};
   specular_samples[pixel] = 0.0f;
+  mirrored[pixel] = shows_nothing;
   noise[pixel] = 0.0f;
   age[pixel] = 0;
 }
@@ -113,6 +123,9 @@ void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
   std::swap(shades_, last_shades_);
   const Reprojection reprojection(tracer.view(0), visibility.now(), tracer.view(1),
                                   visibility.last(), width_, height_);
+  curvatures_.resize(tracer.instance_count());
+  for (std::size_t i = 0; i < curvatures_.size(); ++i)
+    curvatures_[i] = tracer.curvature(static_cast<int>(i));
   constexpr auto lanes = static_cast<int>(Reprojection::lanes);
   std::vector<std::vector<std::uint32_t>> doubtful(static_cast<std::size_t>(height_));
   for_each_row(height_, [&](int y) {
@@ -152,6 +165,7 @@ void ShadingCache::see_projected(const Visibility& visibility) {
       samples = std::min(samples, most_samples);
       shades_.specular_samples[i] =
           std::min(last_shades_.specular_samples[source], most_specular_samples);
+      shades_.mirrored[i] = last_shades_.mirrored[source];
       shades_.noise[i] = last_shades_.noise[source];
       shades_.age[i] = last_shades_.age[source];
     }
@@ -204,6 +218,7 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
     }
     vfloat8 low(0.0f), high(0.0f);
     float total = 0.0f, specular_samples = 0.0f, noise = 0.0f, age = 0.0f;
+    float mirrored = 0.0f, mirrors = 0.0f;
     if (taps.total[i] > least_share) {
       for (std::size_t tap = 0; tap < 4; ++tap) {
         const auto index = static_cast<std::size_t>(taps.pixel[tap][i]);
@@ -214,6 +229,10 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
         high = madd(vfloat8(w), vfloat8(from.lanes.data() + Reprojection::lanes), high);
         specular_samples += w * last_shades_.specular_samples[index];
         noise += w * last_shades_.noise[index];
+        if (last_shades_.mirrored[index] >= 0.0f) {
+          mirrored += w * last_shades_.mirrored[index];
+          mirrors += w;
+        }
         age += w * static_cast<float>(last_shades_.age[index]);
       }
     }
@@ -228,8 +247,67 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
     float& samples = shade.lanes[Shade::samples_lane];
     samples = std::min(samples, most_samples);
     shades_.specular_samples[pixel] = std::min(specular_samples * scale, most_specular_samples);
+    shades_.mirrored[pixel] = mirrors > 0.5f * total ? mirrored / mirrors : shows_nothing;
     shades_.noise[pixel] = noise * scale;
+    follow_mirror(reprojection, left + static_cast<int>(i), y, visibility);
     shades_.age[pixel] = static_cast<std::uint16_t>(age * scale);
+  }
+}
+
+// What a mirror shows, from where the last view saw it.
+void ShadingCache::follow_mirror(const Reprojection& reprojection, int x, int y,
+                                 const Visibility& visibility) {
+  const std::size_t pixel = at(x, y);
+  Shade& shade = shades_.shade[pixel];
+  const std::int32_t object = visibility.now().object[pixel];
+  float vergence = shades_.mirrored[pixel];
+  if (object < 0 || vergence < 0.0f) return;
+  const float curvature = curvatures_[static_cast<std::size_t>(object)];
+  if (std::isnan(curvature)) return;
+  float all = 0.0f, specular = 0.0f;
+  for (std::size_t i = 0; i < Shade::samples_lane; ++i) all += shade.lanes[i];
+  for (std::size_t c = 0; c < 3; ++c) specular += shade.lanes[3 * specular_term + c];
+  if (!(specular > least_mirrored_share * all)) return;
+
+  // What the pixel's surface showed is a guess of what it shows now: the place where that leads to
+  // knows better.
+  constexpr int guesses = 2;
+  for (int guess = 0; guess < guesses; ++guess) {
+    V2f place;
+    if (!reprojection.find_mirrored(x, y, vergence, curvature, place)) return;
+    const int x0 = static_cast<int>(std::floor(place.x)), y0 = static_cast<int>(std::floor(place.y));
+    const float ax = place.x - static_cast<float>(x0), ay = place.y - static_cast<float>(y0);
+    float total = 0.0f, samples = 0.0f, shown = 0.0f;
+    Color light(0.0f);
+    for (int tap = 0; tap < 4; ++tap) {
+      const int tx = x0 + tap % 2, ty = y0 + tap / 2;
+      if (tx < 0 || ty < 0 || tx >= width_ || ty >= height_) continue;
+      const std::size_t index = at(tx, ty);
+      const Shade& from = last_shades_.shade[index];
+      if (visibility.last().object[index] != object || !(from.samples() > 0.0f) ||
+          last_shades_.mirrored[index] < 0.0f) {
+        continue;
+      }
+      const float w = (tap % 2 == 0 ? 1.0f - ax : ax) * (tap / 2 == 0 ? 1.0f - ay : ay);
+      for (std::size_t c = 0; c < 3; ++c)
+        light[static_cast<int>(c)] += w * from.lanes[3 * specular_term + c];
+      samples += w * last_shades_.specular_samples[index];
+      shown += w * last_shades_.mirrored[index];
+      total += w;
+    }
+    if (!(total > least_share)) return;
+    const float found = shown / total;
+    const bool same = std::abs(found - vergence) <=
+                      most_vergence_change * std::max(found + 2.0f * std::abs(curvature),
+                                                      vergence + 2.0f * std::abs(curvature));
+    vergence = found;
+    if (guess + 1 < guesses && !same) continue;
+    if (!same) return;
+    for (std::size_t c = 0; c < 3; ++c)
+      shade.lanes[3 * specular_term + c] = light[static_cast<int>(c)] / total;
+    shades_.specular_samples[pixel] = std::min(samples / total, most_mirrored_samples);
+    shades_.mirrored[pixel] = found;
+    return;
   }
 }
 
@@ -387,6 +465,12 @@ void ShadingCache::add(const std::vector<LiveSample>& samples) {
                             float& mean = s.lanes[3 * t + c];
                             mean += (sample.terms[t][static_cast<int>(c)] - mean) * a;
                           }
+                        }
+                        float& mirrored = shades_.mirrored[sample.pixel];
+                        if (mirrored < 0.0f || sample.mirrored == shows_by_refraction) {
+                          mirrored = sample.mirrored;
+                        } else if (sample.mirrored >= 0.0f) {
+                          mirrored += (sample.mirrored - mirrored) * specular_share;
                         }
                         count += 1.0f;
                         specular_count += 1.0f;

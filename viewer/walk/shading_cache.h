@@ -74,12 +74,16 @@ class ShadingCache {
   struct Shades {
     std::vector<Shade> shade;
     std::vector<float> specular_samples;  // that the specular term rests on
+    std::vector<float> mirrored;          // vergence of what the specular term shows, LiveSample's
     std::vector<float> noise;             // mean square of what samples are off, relative
     std::vector<std::uint16_t> age;       // frames since a sample was taken
 
     explicit Shades(std::size_t pixels);
     void clear(std::size_t pixel);
   };
+  // Curvatures of what is seen, by instance.
+  std::vector<float> curvatures_;
+
   // What choose() goes by, of a row.
   struct Row {
     double wanted = 0.0;  // sum over the pixels that show something
@@ -89,6 +93,8 @@ class ShadingCache {
 
   void carry_over(const class Reprojection& reprojection, int left, int y,
                   const Visibility& visibility, std::vector<std::uint32_t>& doubtful);
+  void follow_mirror(const class Reprojection& reprojection, int x, int y,
+                     const Visibility& visibility);
   void grow_older(int y);
   void spread_urgency();
   void share_noise();
