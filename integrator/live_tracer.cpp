@@ -422,7 +422,8 @@ void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
       }
       RenderStatistics counts;
       s.tracer->render_ranges(picture, ranges, sums, counts, use);
-      for (std::size_t i = 0; i < count; ++i) samples[first + i] = {sums[i].terms, ranges[i].pixel, sums[i].mirrored};
+      for (std::size_t i = 0; i < count; ++i)
+        samples[first + i] = {sums[i].terms, ranges[i].pixel, sums[i].mirrored};
       const std::lock_guard lock(s.mutex);
       s.statistics.add_counts(counts);
     });

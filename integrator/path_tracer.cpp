@@ -158,7 +158,8 @@ struct Lane {
   V3f normal{0.0f}, position{0.0f};
   float hit_depth = 0.0f;
   std::int32_t object = -1;
-  bool follows_mirror = false;  // left the first hit by a specular lobe, until it hits what that shows
+  bool follows_mirror =
+      false;  // left the first hit by a specular lobe, until it hits what that shows
   float mirrored = shows_nothing;
 
   Lane() { radiance.fill(Color(0.0f)); }

@@ -44,9 +44,9 @@ inline bool normals_alike(std::uint32_t a, std::uint32_t b) {
          least_normal_product;
 }
 
-// How far from the first hit what its specular lobe shows is, as an inverse (in optics, a vergence),
-// scene units⁻¹; 0: infinitely far.
-constexpr float shows_nothing = -1.0f;       // no such lobe was followed
+// How far from the first hit what its specular lobe shows is, as an inverse (in optics, a
+// vergence), scene units⁻¹; 0: infinitely far.
+constexpr float shows_nothing = -1.0f;        // no such lobe was followed
 constexpr float shows_by_refraction = -2.0f;  // not where a mirror would show it
 
 // Row by row.

@@ -141,6 +141,62 @@ TEST(walk_engine, edges_stay_exact_while_the_eye_moves) {
   }
 }
 
+// What a mirror shows moves over it with the eye, and is not carried along with the mirror.
+TEST(walk_engine, reflections_move_with_the_eye) {
+  constexpr int size = 64;
+  constexpr std::uint32_t shown = 1u << unsigned(Term::specular);
+  struct Shape {
+    const char* name;
+    std::function<void(Scene&)> add;
+    double most_pixels;  // that the reflection may be off
+  };
+  const Material mirror = metal(Color(1.0f));
+  const std::vector<Shape> shapes = {
+      {"flat",
+       [&](Scene& s) {
+         add_mesh(s, quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}), mirror);
+       },
+       0.5},
+      // By the curvature at a point that light meets head-on.
+      {"ball", [&](Scene& s) { add_sphere(s, 1.2f, mirror, M44d()); }, 0.8},
+  };
+  for (const Shape& shape : shapes) {
+    SCOPED_TRACE(shape.name);
+    Scene scene;
+    shape.add(scene);
+    // The lamp, above the eye; the walls behind it give what else the mirror shows.
+    add_mesh(scene, quad({-0.4f, 0.8f, 5}, {0.8f, 0, 0}, {0, 0.8f, 0}), emitter(Color(5.0f), true));
+    add_mesh(scene, quad({-40, -40, 20}, {80, 0, 0}, {0, 80, 0}), emitter(Color(0.05f), true));
+    const Camera camera = perspective_camera({0, 0, 4}, {0, 0, 0}, 0.6);
+    const std::vector<Camera> path =
+        camera_path(parse_camera_path("--path", "orbit:8"), camera, V3d(0.0), 9);
+    // Where the light is, pixels.
+    const auto middle = [](const std::vector<Color>& picture) {
+      V2f sum(0.0f);
+      float weight = 0.0f;
+      for (int i = 0; i < size * size; ++i) {
+        const float w = picture[std::size_t(i)].y > 0.5f ? picture[std::size_t(i)].y : 0.0f;
+        sum += V2f(float(i % size), float(i / size)) * w;
+        weight += w;
+      }
+      return sum * (1.0f / weight);
+    };
+    WalkEngine engine(scene, walk_settings(size), {Reuse::shading, false});
+    std::vector<Color> picture;
+    engine.advance(path[0], long_frame, shown, picture);
+    const V2f first = middle(picture);
+    std::size_t traced = 0;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      traced += engine.advance(path[i], 1e-6, shown, picture).traced;
+    EXPECT_LT(traced, picture.size() / 4) << "too many samples to see what is carried over";
+    const Framebuffer still = render_clean(scene, path.back(), square(size, 16));
+    const V2f truth = middle(term(still, Term::specular));
+    const V2f now = middle(picture);
+    EXPECT_GT((truth - first).length(), 3.0 * shape.most_pixels) << "it hardly moved";
+    EXPECT_LT((truth - now).length(), shape.most_pixels);
+  }
+}
+
 // The cache in image space only guesses between points, but points go where they are seen.
 TEST(walk_engine, points_in_image_space_move_with_what_they_show) {
   Scene scene;

@@ -66,8 +66,7 @@ Reprojection::Reprojection(const CameraView& now, const VisibleSurfaces& seen_no
       width_(width),
       height_(height) {}
 
-bool Reprojection::find_mirrored(int x, int y, float vergence, float curvature,
-                                 V2f& place) const {
+bool Reprojection::find_mirrored(int x, int y, float vergence, float curvature, V2f& place) const {
   const float behind = vergence + 2.0f * curvature;
   if (!(behind >= 0.0f)) return false;  // a real image, in front of a hollow mirror
   const float column = static_cast<float>(x) + 0.5f, row = static_cast<float>(y) + 0.5f;

@@ -27,10 +27,10 @@ class Reprojection {
   Reprojection(const CameraView& now, const VisibleSurfaces& seen_now, const CameraView& then,
                const VisibleSurfaces& seen_then, int width, int height);
 
-  // Where the other view saw what a mirror shows at a pixel now, pixels from the middle of the first
-  // one. vergence: 1 / distance from the mirror to that; curvature: of the mirror, LiveTracer's.
-  // What a mirror shows seems to stand behind it: as far as in front of a flat one, nearer for one
-  // that bulges (1/d' = 1/d + 2/r, for light that meets it head-on). False: nowhere.
+  // Where the other view saw what a mirror shows at a pixel now, pixels from the middle of the
+  // first one. vergence: 1 / distance from the mirror to that; curvature: of the mirror,
+  // LiveTracer's. What a mirror shows seems to stand behind it: as far as in front of a flat one,
+  // nearer for one that bulges (1/d' = 1/d + 2/r, for light that meets it head-on). False: nowhere.
   bool find_mirrored(int x, int y, float vergence, float curvature, V2f& place) const;
 
   // Of the pixels (left, y) to (left + lanes − 1, y); those outside the picture repeat one inside.

@@ -275,7 +275,8 @@ void ShadingCache::follow_mirror(const Reprojection& reprojection, int x, int y,
   for (int guess = 0; guess < guesses; ++guess) {
     V2f place;
     if (!reprojection.find_mirrored(x, y, vergence, curvature, place)) return;
-    const int x0 = static_cast<int>(std::floor(place.x)), y0 = static_cast<int>(std::floor(place.y));
+    const int x0 = static_cast<int>(std::floor(place.x)),
+              y0 = static_cast<int>(std::floor(place.y));
     const float ax = place.x - static_cast<float>(x0), ay = place.y - static_cast<float>(y0);
     float total = 0.0f, samples = 0.0f, shown = 0.0f;
     Color light(0.0f);
