@@ -396,7 +396,7 @@ class PlanTest(unittest.TestCase):
             self.assertIn(scale.frame_time, scale.frame_times)
             plan = Plan(Path("build"), Path("report"), scale, scenes, 2)
             walks = [step.name for step in plan.steps if step.kind == "walk"]
-            self.assertEqual(len(walks), 2 + 2 * len(scale.frame_times))
+            self.assertEqual(len(walks), 2 + 2 * len(scale.frame_times) + 2)  # in image space
             keys = [step.key for step in plan.steps]
             self.assertEqual(len(keys), len(set(keys)))
 

@@ -15,6 +15,9 @@ from .steps import STDOUT, ReportError, Step, fingerprint, step_key
 
 WALK_MODES = ("path", "lv", "rc", "rc+lv")
 REUSING_MODES = ("rc", "rc+lv")
+# These with the paper's cache in image space instead of the shading cache, at one frame time.
+IMAGE_SPACE = " in image space"
+IMAGE_SPACE_MODES = tuple(mode + IMAGE_SPACE for mode in REUSING_MODES)
 STILL_METHODS = {
     "path": ("--integrator", "path"),
     "light-vectors-paper": ("--integrator", "light-vectors", "--validity", "paper"),
@@ -142,9 +145,12 @@ class Plan:
         # The first walk renders the reference frames.
         references = self._sampling_seconds(scene, scale.frames * scale.walk_reference_samples)
         comparing = scale.frames * scale.width * scale.height * 5e-6
-        for mode in WALK_MODES:
-            reusing = mode in REUSING_MODES
-            for frame_time in scale.frame_times if reusing else (0.0,):
+        for mode in WALK_MODES + IMAGE_SPACE_MODES:
+            reusing = mode not in ("path", "lv")
+            frame_times = scale.frame_times if reusing else (0.0,)
+            if mode in IMAGE_SPACE_MODES:
+                frame_times = (scale.frame_time,)
+            for frame_time in frame_times:
                 tags = {"scene": scene.name, "mode": mode}
                 if reusing:
                     tags["frame time"] = f"{frame_time:g} ms"
@@ -154,7 +160,8 @@ class Plan:
                     tags,
                     self.lumivec,
                     [
-                        *("walk", str(scene.path), "--mode", mode),
+                        *("walk", str(scene.path), "--mode", mode.removesuffix(IMAGE_SPACE)),
+                        *(("--reuse", "image") if mode in IMAGE_SPACE_MODES else ()),
                         *(("--frame-time", f"{frame_time:g}") if reusing else ()),
                         *options,
                     ],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
@@ -14,7 +15,7 @@ import time
 from dataclasses import asdict, dataclass, field
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Optional
+from typing import Any, Iterator, Optional
 
 STDOUT = "stdout"  # as a step's output: the program prints its JSON
 KIBIBYTE = 1024
@@ -135,20 +136,38 @@ def _read_json(path: Path) -> Any:
         return None
 
 
+@contextlib.contextmanager
+def _held_interrupts() -> Iterator[list[int]]:
+    """Yields what arrives meanwhile. One that ended Popen itself would leave its program running."""
+    arrived: list[int] = []
+    handlers = {
+        number: signal.signal(number, lambda number, frame: arrived.append(number))
+        for number in (signal.SIGINT, signal.SIGTERM)
+    }
+    try:
+        yield arrived
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+
+
 def _run_program(step: Step, place: Path) -> tuple[int, Any]:
     """The exit code, and the resources that the program used."""
     # A colour configuration of the user's would change pictures and FLIP.
     environment = {name: value for name, value in os.environ.items() if name != "OCIO"}
     with open(place / "stdout.txt", "wb") as out, open(place / "stderr.txt", "wb") as errors:
-        process = subprocess.Popen(
-            [str(step.program.resolve()), *step.arguments],
-            cwd=place,
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=out,
-            stderr=errors,
-        )
+        with _held_interrupts() as interrupts:
+            process = subprocess.Popen(
+                [str(step.program.resolve()), *step.arguments],
+                cwd=place,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=errors,
+            )
         try:
+            if interrupts:
+                raise KeyboardInterrupt
             # Not process.wait(): it does not tell this one child's resources.
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..markup import Html, element, joined, number, paragraph, row_of, seconds, table, whole
-from ..plan import WALK_MODES
+from ..plan import IMAGE_SPACE_MODES, WALK_MODES
 from ..plots import Line, plot
 from ..results import Results, show_unfinished
 from ..scale import Scale
@@ -30,7 +30,7 @@ def _plots(content: dict, scene: str) -> Html:
         ("flip", "FLIP mean", 1.0),
     ):
         lines = []
-        for color, mode in enumerate(WALK_MODES):
+        for color, mode in enumerate(WALK_MODES + IMAGE_SPACE_MODES):
             run = find_run(content["runs"], scene, mode, content["frame_time_ms"])
             values = run["frames"][name] if run else []
             points = [(i, y * factor) for i, y in enumerate(values) if y is not None]
@@ -72,7 +72,8 @@ def show(content: dict, folder: Path) -> Html:
         paragraph(
             f"The eye goes {content['orbit_degrees']:g} degrees around what it looks at. Drawn are "
             f"rc and rc+lv with a frame time of {content['frame_time_ms']:g} ms; path and lv trace "
-            "every pixel of every frame. Filled: pixels without a sample near. Change: that of the "
+            "every pixel of every frame. In image space: the points that earlier frames saw are moved "
+            "to where they are seen now, instead of surfaces being seen afresh. Filled: pixels without a sample near. Change: that of the "
             "picture from frame to frame, by that of the reference; above 1, it flickers."
         ),
     ]
