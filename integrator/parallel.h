@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include "integrator/denormals.h"
@@ -42,6 +43,15 @@ void for_each(std::size_t count, const Body& body) {
       },
       tbb::simple_partitioner());
 #endif
+}
+
+// Likewise for rounds that take less: `group` of them are handed out at a time.
+template <typename Body>
+void for_each_in_groups(std::size_t count, std::size_t group, const Body& body) {
+  for_each((count + group - 1) / group, [&](std::size_t g) {
+    const std::size_t end = std::min(count, (g + 1) * group);
+    for (std::size_t i = g * group; i < end; ++i) body(i);
+  });
 }
 
 }  // namespace lumivec

@@ -83,7 +83,9 @@ class Mutator {
   }
 
  private:
-  std::size_t below(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
+  std::size_t below(std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);
+  }
 
   std::vector<std::string> some_of(const std::vector<std::string>& tokens, std::size_t most) {
     const std::size_t first = below(tokens.size());
@@ -219,7 +221,8 @@ void try_mutant(const Seed& seed, const std::string& text, LoadOptions options, 
     const Scene scene = seed.pov ? pov::read_pov(seed.file, bytes, options, report)
                                  : gltf::read_gltf(seed.file, bytes, options, report);
     const std::string broken = broken_promise(scene);
-    if (!broken.empty()) throw CommandError("a scene came through that breaks a promise: " + broken);
+    if (!broken.empty())
+      throw CommandError("a scene came through that breaks a promise: " + broken);
     ++counts.loaded;
   } catch (const SceneError& error) {
     const std::string line = error.what();
@@ -247,7 +250,8 @@ int run(int argc, char** argv) {
   app.add_option("--seconds", seconds, "How long [60]")->check(CLI::PositiveNumber);
   app.add_option("--count", most, "Mutants at most [0: as the time allows]");
   app.add_option("--seed", seed, "Of the mutants [0]");
-  app.add_option("--keep", keep, "Where the mutant being tried is kept; .pov or .gltf is added [mutant]");
+  app.add_option("--keep", keep,
+                 "Where the mutant being tried is kept; .pov or .gltf is added [mutant]");
   app.add_option("--slow", slow, "Mutants that take longer, in seconds, are kept too [20]");
   add_json_option(app, json);
   CLI11_PARSE(app, argc, argv);

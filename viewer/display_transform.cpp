@@ -1,14 +1,12 @@
 #include "viewer/display_transform.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 
 #include "viewer/errors.h"
 #include "viewer/ocio_config.h"
+#include "viewer/rows.h"
 #include "viewer/suggestion.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -76,14 +74,12 @@ void DisplayTransform::apply(Picture& picture, double exposure) const {
     const float exposed = v * scale;
     return std::isfinite(exposed) ? std::clamp(exposed, -most_displayed, most_displayed) : 0.0f;
   };
-  tbb::parallel_for(tbb::blocked_range<int>(0, picture.height), [&](const auto& rows) {
-    for (int y = rows.begin(); y < rows.end(); ++y) {
-      Color* row = picture.pixels.data() + std::size_t(y) * std::size_t(picture.width);
-      std::for_each(row, row + picture.width,
-                    [&](Color& c) { c = Color(clean(c.x), clean(c.y), clean(c.z)); });
-      OCIO::PackedImageDesc description(row, picture.width, 1, 3);
-      processor_->cpu->apply(description);
-    }
+  for_each_row(picture.height, [&](int y) {
+    Color* row = picture.pixels.data() + std::size_t(y) * std::size_t(picture.width);
+    std::for_each(row, row + picture.width,
+                  [&](Color& c) { c = Color(clean(c.x), clean(c.y), clean(c.z)); });
+    OCIO::PackedImageDesc description(row, picture.width, 1, 3);
+    processor_->cpu->apply(description);
   });
 }
 

@@ -1,8 +1,5 @@
 #include "viewer/flip.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -10,10 +7,13 @@
 #include <numbers>
 #include <numeric>
 
+#include "integrator/parallel.h"
 #include "viewer/separable_filter.h"
 
 namespace lumivec {
 namespace {
+
+constexpr std::size_t pixels_at_once = 4096;
 
 constexpr float pi = std::numbers::pi_v<float>;
 
@@ -166,7 +166,7 @@ Seen see(const Picture& picture, float pixels_per_degree) {
   std::array<Plane, 3> planes;
   planes.fill(Plane(picture.width, picture.height));
   Plane luminance(picture.width, picture.height);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  for_each_in_groups(count, pixels_at_once, [&](std::size_t i) {
     const Color& c = picture.pixels[i];
     const Color linear(srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z));
     const V3f opponent = ycxcz(xyz(linear));
@@ -179,7 +179,7 @@ Seen see(const Picture& picture, float pixels_per_degree) {
     planes[axis] = filter_by_sensitivity(planes[axis], sensitivities[axis], pixels_per_degree);
   }
   seen.lab.resize(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  for_each_in_groups(count, pixels_at_once, [&](std::size_t i) {
     Color c =
         linear_rgb(xyz_of_ycxcz({planes[0].values[i], planes[1].values[i], planes[2].values[i]}));
     for (int k = 0; k < 3; ++k) c[k] = std::clamp(c[k], 0.0f, 1.0f);
@@ -200,7 +200,7 @@ std::vector<float> flip_map(const Picture& reference, const Picture& test,
       std::pow(hyab(hunt_adjusted_lab({0.0f, 1.0f, 0.0f}), hunt_adjusted_lab({0.0f, 0.0f, 1.0f})),
                color_exponent);
   std::vector<float> errors(reference.pixels.size());
-  tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t i) {
+  for_each_in_groups(errors.size(), pixels_at_once, [&](std::size_t i) {
     const float edge = std::abs(a.features.edge[i] - b.features.edge[i]);
     const float point = std::abs(a.features.point[i] - b.features.point[i]);
     const float feature =

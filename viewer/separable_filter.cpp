@@ -1,9 +1,9 @@
 #include "viewer/separable_filter.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
+
+#include "viewer/rows.h"
 
 namespace lumivec {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 Plane convolved_across(const Plane& plane, const std::vector<float>& kernel) {
   const int radius = int(kernel.size() / 2);
   Plane result(plane.width, plane.height);
-  tbb::parallel_for(0, plane.height, [&](int y) {
+  for_each_row(plane.height, [&](int y) {
     const float* row = plane.values.data() + std::size_t(y) * std::size_t(plane.width);
     float* out = result.values.data() + std::size_t(y) * std::size_t(plane.width);
     std::vector<float> padded(std::size_t(plane.width + 2 * radius));
@@ -29,7 +29,7 @@ Plane convolved_across(const Plane& plane, const std::vector<float>& kernel) {
 Plane convolved_down(const Plane& plane, const std::vector<float>& kernel) {
   const int radius = int(kernel.size() / 2);
   Plane result(plane.width, plane.height);
-  tbb::parallel_for(0, plane.height, [&](int y) {
+  for_each_row(plane.height, [&](int y) {
     float* out = result.values.data() + std::size_t(y) * std::size_t(plane.width);
     for (std::size_t k = 0; k < kernel.size(); ++k) {
       const int source = std::clamp(y + int(k) - radius, 0, plane.height - 1);

@@ -1,26 +1,16 @@
 #include "viewer/walk/pull_push.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
+
+#include "viewer/rows.h"
 
 namespace lumivec {
 namespace {
 
 // What another surface counts beside the same one: enough where there is nothing else.
 constexpr float other_surface = 1e-4f;
-
-template <typename Body>
-void for_each_row(int height, const Body& body) {
-  constexpr int grain = 16;
-  tbb::parallel_for(tbb::blocked_range<int>(0, height, grain),
-                    [&](const tbb::blocked_range<int>& r) {
-                      for (int y = r.begin(); y < r.end(); ++y) body(y);
-                    });
-}
 
 struct Surface {
   std::int32_t object = -1;

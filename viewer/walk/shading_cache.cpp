@@ -1,14 +1,13 @@
 #include "viewer/walk/shading_cache.h"
 
 #include <OpenImageIO/simd.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include "integrator/sobol.h"
+#include "viewer/rows.h"
 #include "viewer/walk/pull_push.h"
 #include "viewer/walk/reprojection.h"
 
@@ -50,13 +49,6 @@ constexpr float most_noise_samples = 4.0f;
 constexpr float least_noisiness = 0.15f;
 // Rows whose errors are diffused by themselves, so that several threads choose.
 constexpr int band_height = 64;
-
-template <typename Body>
-void for_each_row(int height, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, height, 8), [&](const tbb::blocked_range<int>& r) {
-    for (int y = r.begin(); y < r.end(); ++y) body(y);
-  });
-}
 
 constexpr auto specular_term = static_cast<std::size_t>(Term::specular);
 
@@ -341,7 +333,7 @@ void ShadingCache::spread_urgency() {
 void ShadingCache::share_noise() {
   const std::size_t down = noisiness_.size() / blocks_across_;
   std::vector<double> rows(down, 0.0);
-  tbb::parallel_for(std::size_t{0}, down, [&](std::size_t by) {
+  for_each(down, [&](std::size_t by) {
     const int top = static_cast<int>(by * block_side);
     const int bottom = std::min(top + static_cast<int>(block_side), height_);
     for (std::size_t bx = 0; bx < blocks_across_; ++bx) {
@@ -394,11 +386,12 @@ void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests)
   const double left = asked - holes;
   const auto scale = static_cast<float>(left > 0.0 && all.wanted > 0.0 ? left / all.wanted : 0.0);
 
-  const int bands = (height_ + band_height - 1) / band_height;
-  std::vector<std::vector<LiveRequest>> chosen(static_cast<std::size_t>(bands));
+  const auto bands = static_cast<std::size_t>((height_ + band_height - 1) / band_height);
+  std::vector<std::vector<LiveRequest>> chosen(bands);
   // Floyd and Steinberg 1976, rows in turn from left to right and from right to left.
-  tbb::parallel_for(0, bands, [&](int band) {
-    std::vector<LiveRequest>& to = chosen[static_cast<std::size_t>(band)];
+  for_each(bands, [&](std::size_t index) {
+    const auto band = static_cast<int>(index);
+    std::vector<LiveRequest>& to = chosen[index];
     std::vector<float> carried(std::size_t(width_) + 2, 0.0f), next(std::size_t(width_) + 2, 0.0f);
     // What rows above the band would have left over; without it the first rows would be left out.
     for (std::size_t c = 1; c <= std::size_t(width_); ++c) {
@@ -442,42 +435,38 @@ void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests)
 
 void ShadingCache::add(const std::vector<LiveSample>& samples) {
   constexpr std::size_t grain = 4096;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), grain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t k = range.begin(); k < range.end(); ++k) {
-                        const LiveSample& sample = samples[k];
-                        Shade& s = shades_.shade[sample.pixel];
-                        float& count = s.lanes[Shade::samples_lane];
-                        if (changing_ && count > 0.0f && differs(sample, s.lanes.data())) {
-                          std::atomic_ref<float>(urgency_[block_of(sample.pixel)])
-                              .store(1.0f, std::memory_order_relaxed);
-                        }
-                        if (count > 0.0f) {
-                          float& noise = shades_.noise[sample.pixel];
-                          const float a = 1.0f / (1.0f + std::min(count, most_noise_samples));
-                          noise += (noise_of(sample, s.lanes.data(), count) - noise) * a;
-                        }
-                        float& specular_count = shades_.specular_samples[sample.pixel];
-                        const float share = 1.0f / (count + 1.0f),
-                                    specular_share = 1.0f / (specular_count + 1.0f);
-                        for (std::size_t t = 0; t < term_count; ++t) {
-                          const float a = t == specular_term ? specular_share : share;
-                          for (std::size_t c = 0; c < 3; ++c) {
-                            float& mean = s.lanes[3 * t + c];
-                            mean += (sample.terms[t][static_cast<int>(c)] - mean) * a;
-                          }
-                        }
-                        float& mirrored = shades_.mirrored[sample.pixel];
-                        if (mirrored < 0.0f || sample.mirrored == shows_by_refraction) {
-                          mirrored = sample.mirrored;
-                        } else if (sample.mirrored >= 0.0f) {
-                          mirrored += (sample.mirrored - mirrored) * specular_share;
-                        }
-                        count += 1.0f;
-                        specular_count += 1.0f;
-                        shades_.age[sample.pixel] = 0;
-                      }
-                    });
+  for_each_in_groups(samples.size(), grain, [&](std::size_t k) {
+    const LiveSample& sample = samples[k];
+    Shade& s = shades_.shade[sample.pixel];
+    float& count = s.lanes[Shade::samples_lane];
+    if (changing_ && count > 0.0f && differs(sample, s.lanes.data())) {
+      std::atomic_ref<float>(urgency_[block_of(sample.pixel)])
+          .store(1.0f, std::memory_order_relaxed);
+    }
+    if (count > 0.0f) {
+      float& noise = shades_.noise[sample.pixel];
+      const float a = 1.0f / (1.0f + std::min(count, most_noise_samples));
+      noise += (noise_of(sample, s.lanes.data(), count) - noise) * a;
+    }
+    float& specular_count = shades_.specular_samples[sample.pixel];
+    const float share = 1.0f / (count + 1.0f), specular_share = 1.0f / (specular_count + 1.0f);
+    for (std::size_t t = 0; t < term_count; ++t) {
+      const float a = t == specular_term ? specular_share : share;
+      for (std::size_t c = 0; c < 3; ++c) {
+        float& mean = s.lanes[3 * t + c];
+        mean += (sample.terms[t][static_cast<int>(c)] - mean) * a;
+      }
+    }
+    float& mirrored = shades_.mirrored[sample.pixel];
+    if (mirrored < 0.0f || sample.mirrored == shows_by_refraction) {
+      mirrored = sample.mirrored;
+    } else if (sample.mirrored >= 0.0f) {
+      mirrored += (sample.mirrored - mirrored) * specular_share;
+    }
+    count += 1.0f;
+    specular_count += 1.0f;
+    shades_.age[sample.pixel] = 0;
+  });
 }
 
 // Terms lie three numbers apart; of the fourth of each nothing is kept.

@@ -1,13 +1,12 @@
 #include "viewer/walk/visibility.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
+
+#include "viewer/rows.h"
 
 namespace lumivec {
 namespace {
@@ -22,13 +21,6 @@ constexpr float most_off_plane = 0.5f;
 constexpr float most_depth_share = 0.1f;
 // Background among so many of eight neighbours is seen through a surface.
 constexpr int most_surfaces_around = 5;
-
-template <typename Body>
-void for_each_row(int height, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, height, 8), [&](const tbb::blocked_range<int>& r) {
-    for (int y = r.begin(); y < r.end(); ++y) body(y);
-  });
-}
 
 // Packed normals are only nearly of the same length.
 bool nearly_parallel(std::uint32_t a, std::uint32_t b) {
