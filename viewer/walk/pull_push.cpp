@@ -1,5 +1,6 @@
 #include "viewer/walk/pull_push.h"
 
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
