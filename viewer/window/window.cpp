@@ -215,7 +215,7 @@ bool Window::shows_current_view() const {
   const EnginePicture& picture = engine_.picture();
   return picture.scene == status_.scene_number && picture.width > 0 &&
          picture.width == asked_.width && picture.height == asked_.height &&
-         picture.terms == state_.terms &&
+         picture.terms == state_.terms && picture.change >= change_ &&
          same_view(picture.camera, state_.camera.camera());
 }
 

@@ -17,6 +17,7 @@
 #include "viewer/window/key_table.h"
 #include "viewer/window/navigator.h"
 #include "viewer/window/panels.h"
+#include "viewer/window/shown_settings.h"
 #include "viewer/window/window_app.h"
 #include "viewer/window/window_state.h"
 
@@ -71,7 +72,7 @@ class Window {
   void perform_view(const KeyAction& action);
   void perform_picture(const KeyAction& action);
   void perform_wishes();
-  void apply_edit(const std::shared_ptr<const LoadedScene>& scene);
+  void send_edits();
 
   void open(const std::filesystem::path& file, bool keep_camera);
   void follow_engine();
@@ -95,6 +96,7 @@ class Window {
 
   void say(const std::string& message, bool is_error = false);
   void set_display(const DisplayOptions& display);
+  ShownPicture shown_picture(const PictureSize& size) const;  // there is a scene
   void write_path();
   void set_full_screen(bool full);
   double now() const { return glfwGetTime(); }
@@ -115,9 +117,9 @@ class Window {
   // What is known of the engine.
   EngineStatus status_;
   std::uint64_t scene_seen_ = 0, opened_seen_ = 0, error_seen_ = 0;
-  int stills_seen_ = 0, references_seen_ = 0;
-  std::shared_ptr<const LoadedScene> edited_;  // that the engine has not taken over yet
-  PictureSize asked_;                          // of the engine
+  int stills_seen_ = 0;
+  std::uint64_t change_ = 0;  // the last that the engine was sent
+  PictureSize asked_;         // of the engine
   std::optional<std::filesystem::path> opening_;
   bool pivot_pending_ = false;
   std::uint64_t picks_ = 0, pick_seen_ = 0;
@@ -154,10 +156,11 @@ class Window {
     std::uint32_t terms = 0;
     std::uint64_t scene = 0;
     int width = 0, height = 0;
+    int render = 0;  // BackgroundRender's number; 0: none has been started
+    bool ready = false, failed = false;
   };
   std::vector<Color> reference_pixels_;  // of the render's thread until that has ended
   Reference reference_;
-  bool reference_ready_ = false;
 
   double mouse_x_ = 0.0, mouse_y_ = 0.0;
   double click_at_ = -1.0, click_x_ = 0.0, click_y_ = 0.0;

@@ -73,8 +73,8 @@ void Window::after_picture() {
     }
     try {
       const std::filesystem::path file =
-          write_screenshot(options_.folder, read_back(viewport_), *status_.scene, state_,
-                           display_->names().chosen, figures_);
+          write_screenshot(options_.folder, read_back(viewport_),
+                           shown_picture({viewport_.width, viewport_.height}), figures_);
       say(file.string() + " written");
     } catch (const CommandError& error) {
       say(error.what(), true);
@@ -119,6 +119,8 @@ void Window::draw_interface() {
 
   PanelInput input;
   input.scene = status_.scene.get();
+  input.patch = &edits_.patch();
+  input.bounds = status_.bounds;
   input.picture = &engine_.picture();
   input.layers = engine_.layers().scene == status_.scene_number ? &engine_.layers() : nullptr;
   input.histogram = &histogram_;
@@ -149,7 +151,10 @@ void Window::draw_interface() {
   }
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (edit && status_.scene) apply_edit(edits_.apply(*status_.scene, edit->edit, edit->gesture));
+  if (edit && status_.scene) {
+    edits_.apply(edit->edit, edit->gesture);
+    send_edits();
+  }
 }
 
 void Window::write_shot() {

@@ -37,8 +37,6 @@ void Window::open(const fs::path& file, bool keep_camera) {
 
 void Window::follow_engine() {
   status_ = engine_.status();
-  if (status_.scene == edited_ || status_.opened_number != opened_seen_) edited_.reset();
-  if (edited_) status_.scene = edited_;
   if (status_.error_number != error_seen_) {
     error_seen_ = status_.error_number;
     // The window was opened for this scene alone.
@@ -56,8 +54,8 @@ void Window::follow_engine() {
 
 void Window::take_scene(const EngineStatus& status) {
   const LoadedScene& scene = *status.scene;
-  reference_ready_ = false;
   reference_render_.cancel();
+  reference_ = {};
   if (status.opened_number == opened_seen_) return;  // the same file, changed by the user
   const bool first = opened_seen_ == 0;
   opened_seen_ = status.opened_number;
@@ -155,7 +153,7 @@ void Window::upload_pictures() {
   const LayerPicture& layers = engine_.layers();
   if (!status_.scene || picture.scene != status_.scene_number) return;
   const bool light = state_.layer == Layer::light;
-  const bool errors = light && state_.error_map && reference_ready_ &&
+  const bool errors = light && state_.error_map && reference_.ready &&
                       reference_.width == picture.width && reference_.height == picture.height &&
                       reference_.terms == picture.terms &&
                       same_view(reference_.camera, picture.camera);
@@ -197,9 +195,11 @@ void Window::follow_renders() {
     say(still.said, still.failed);
   }
   const BackgroundRender::State reference = reference_render_.state();
-  if (reference.ended != references_seen_) {
-    references_seen_ = reference.ended;
-    reference_ready_ = !reference.failed;
+  // One for an earlier view may have ended since that was given up.
+  if (reference.ended == reference_.render && reference_.render != 0 && !reference_.ready &&
+      !reference_.failed) {
+    reference_.ready = !reference.failed;
+    reference_.failed = reference.failed;
     if (reference.failed) say(reference.said, true);
   }
 }
@@ -207,7 +207,8 @@ void Window::follow_renders() {
 // The view rests: what it should look like is path-traced meanwhile.
 void Window::render_reference() {
   if (!state_.error_map || !status_.scene) {
-    reference_render_.cancel();
+    if (reference_.render != 0) reference_render_.cancel();
+    reference_ = {};  // one that failed is tried again when it is asked for again
     return;
   }
   const EnginePicture& picture = engine_.picture();
@@ -216,11 +217,10 @@ void Window::render_reference() {
   const bool same = reference_.scene == status_.scene_number && reference_.terms == state_.terms &&
                     reference_.width == picture.width && reference_.height == picture.height &&
                     same_view(reference_.camera, camera);
-  if (same && (reference_ready_ || reference_render_.state().running)) return;
+  if (same && reference_.render != 0) return;  // it goes on, is there, or cannot be made
   if (!same_view(picture.camera, camera) || now() - moved_at_ < reference_delay) return;
   reference_render_.cancel();
-  reference_ready_ = false;
-  reference_ = {camera, state_.terms, status_.scene_number, picture.width, picture.height};
+  reference_ = {};
   RenderSettings settings;
   settings.width = picture.width;
   settings.height = picture.height;
@@ -228,8 +228,8 @@ void Window::render_reference() {
   settings.terms = state_.terms;
   settings.threads = state_.knobs.threads;
   settings.seed = state_.knobs.seed ^ reference_seed;
-  reference_render_.start(
-      status_.scene, camera, settings,
+  const int number = reference_render_.start(
+      status_.scene, edits_.patch(), camera, settings,
       [this](const Framebuffer& made, const RenderStatistics&) {
         reference_pixels_.resize(made.pixel_count());
         for (std::size_t i = 0; i < reference_pixels_.size(); ++i)
@@ -237,6 +237,8 @@ void Window::render_reference() {
         return std::string();
       },
       [] { glfwPostEmptyEvent(); });
+  reference_ = {camera, state_.terms, status_.scene_number, picture.width, picture.height, number,
+                false,  false};
 }
 
 void Window::follow_files() {
