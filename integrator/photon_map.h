@@ -61,6 +61,7 @@ class PhotonMap {
              float widen = 1.0f);
 
   bool empty() const { return photons_.empty(); }
+  std::size_t size() const { return photons_.size(); }
   std::size_t bytes() const {
     return photons_.capacity() * sizeof(Photon) + tree_.bytes() + few_tree_.bytes();
   }

@@ -170,6 +170,7 @@ class EngineThread::Worker {
     picture.scene = scene_number_;
     picture.number = ++number_;
     picture.change = change_;
+    picture.knobs = knobs_;
     picture.width = width_;
     picture.height = height_;
     picture.camera = view.camera;
@@ -178,6 +179,7 @@ class EngineThread::Worker {
     picture.samples = samples_;
     picture.records = engine_->statistics().records;
     picture.cache_bytes = engine_->statistics().cache_bytes;
+    picture.caches = engine_->caches();
     if (view.pick.number != pick_.number) pick_ = answer(view);
     picture.pick = pick_;
   }

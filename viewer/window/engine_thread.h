@@ -71,6 +71,7 @@ struct EnginePicture {
   std::uint64_t scene = 0;  // EngineStatus::scene_number
   std::uint64_t number = 0;
   std::uint64_t change = 0;  // EngineThread::change: the last one that it shows
+  EngineKnobs knobs;         // of the engine that made it
   int width = 0, height = 0;
   Camera camera;
   std::uint32_t terms = 0;
@@ -80,6 +81,7 @@ struct EnginePicture {
   V3d pivot{0.0};        // WalkEngine::pivot
   double samples = 0.0;  // a pixel, mean, since the view came to rest
   std::uint64_t records = 0, cache_bytes = 0;
+  WalkEngine::Caches caches;
   PickAnswer pick;
 };
 

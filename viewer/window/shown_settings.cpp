@@ -90,7 +90,10 @@ std::string settings_text(const ShownPicture& shown) {
 
 std::string patch_text(const ScenePatch& patch, const Scene& scene) {
   std::string text;
-  const auto begin = [&](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+  const auto begin = [&](const std::string& what) {
+    if (!text.empty()) text += "; ";
+    text += what;
+  };
   const auto number = [](float value) { return format_number(double(value), all_digits); };
   for (const auto& [index, m] : patch.materials) {
     begin("material " + name_or(m.name, index) + ": base " + color_text(m.base_color) +
@@ -104,7 +107,7 @@ std::string patch_text(const ScenePatch& patch, const Scene& scene) {
     begin("object " + name_or(scene.instances[index].name, index) + ": matrix");
     for (int row = 0; row < 4; ++row) {
       for (int column = 0; column < 3; ++column)
-        text += (row + column == 0 ? " " : ",") + format_number(place[row][column], 17);
+        text.append(row + column == 0 ? " " : ",").append(format_number(place[row][column], 17));
     }
   }
   if (patch.environment) {

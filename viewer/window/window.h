@@ -12,6 +12,7 @@
 #include "viewer/window/background_render.h"
 #include "viewer/window/engine_thread.h"
 #include "viewer/window/file_watch.h"
+#include "viewer/window/frame_pacer.h"
 #include "viewer/window/gl_window.h"
 #include "viewer/window/gpu_display.h"
 #include "viewer/window/key_table.h"
@@ -19,13 +20,14 @@
 #include "viewer/window/panels.h"
 #include "viewer/window/shown_settings.h"
 #include "viewer/window/window_app.h"
+#include "viewer/window/window_scale.h"
 #include "viewer/window/window_state.h"
 
 namespace lumivec {
 
 class ScriptPlayer;
 
-constexpr int usual_width = 1120, usual_height = 720;  // of a first window, screen units
+constexpr int usual_width = 1120, usual_height = 720;  // of a first window, on a usual display
 
 class Window {
  public:
@@ -44,8 +46,19 @@ class Window {
   const EnginePicture& picture() const { return engine_.picture(); }
   bool still_running() const { return still_.state().running; }
   bool shows_current_view() const;
+  bool shows_comparison() const { return shows_current_view() && !picture().compared.empty(); }
+  bool shows_records() const {
+    return engine_.layers().scene == status_.scene_number && !engine_.layers().records.empty();
+  }
+  bool picks_answered() const { return pick_seen_ == picks_; }
+  bool iconified() const { return iconified_; }
+  std::array<int, 2> size() const { return {window_width_, window_height_}; }
   double first_picture_seconds() const { return first_picture_; }
+  std::uint64_t frames() const { return frames_; }
+  double display_rate() const { return display_rate_; }
+  const WindowScale& scale() const { return scale_; }
   std::size_t edits_done() const { return edits_.done(); }
+  const ScenePatch& patch() const { return edits_.patch(); }
   // Where the mouse is for the panels, instead of where it really is; and which buttons are down.
   struct ScriptMouse {
     double x = 0.0, y = 0.0;
@@ -122,6 +135,7 @@ class Window {
   PictureSize asked_;         // of the engine
   std::optional<std::filesystem::path> opening_;
   bool pivot_pending_ = false;
+  bool metering_ = false;  // the next picture sets the exposure
   std::uint64_t picks_ = 0, pick_seen_ = 0;
   PickQuestion pick_;
 
@@ -130,7 +144,8 @@ class Window {
   int canvas_width_ = 1, canvas_height_ = 1;
   float picture_width_ = 1.0f, picture_height_ = 1.0f;
   Viewport viewport_;
-  float text_size_ = 13.0f;
+  WindowScale scale_;
+  float text_size_ = 13.0f;  // window units
   bool iconified_ = false;
   std::array<int, 4> windowed_{};  // place and size before full screen
 
@@ -169,6 +184,9 @@ class Window {
   double flown_at_ = -1.0;
   double path_begun_ = -1.0;
   double watched_at_ = 0.0;
+  FramePacer pacer_;
+  double display_rate_ = 60.0;  // pictures a second, of the fastest display
+  std::uint64_t frames_ = 0;    // that the window has shown
 };
 
 }  // namespace lumivec

@@ -21,10 +21,8 @@ constexpr double meter_share = 0.1;  // of what is known, a frame's measurement 
 }  // namespace
 
 void Window::open(const fs::path& file, bool keep_camera) {
-  SceneSource source;
-  if (status_.scene) source = status_.scene->source;
-  if (options_.scene && !status_.scene) source = *options_.scene;
-  if (file != source.file) {
+  SceneSource source = status_.scene ? status_.scene->source : options_.scene;
+  if (file != source.file && !source.file.empty()) {
     // What was said of the other file alone: which of its scenes, that it is trusted, and its pose.
     source.load.scene.clear();
     source.load.allow_outside_files = false;
@@ -40,7 +38,7 @@ void Window::follow_engine() {
   if (status_.error_number != error_seen_) {
     error_seen_ = status_.error_number;
     // The window was opened for this scene alone.
-    if (!status_.scene && options_.scene && opening_ == options_.scene->file)
+    if (!status_.scene && !options_.scene.file.empty() && opening_ == options_.scene.file)
       throw CommandError(status_.error);
     say(status_.error, true);
   }
@@ -62,7 +60,9 @@ void Window::take_scene(const EngineStatus& status) {
   edits_.begin();
   state_.picked.reset();
   navigator_.set_scale(0.5 * scene.bounds.size().length());
-  watch_.watch(files_of_scene(scene.source.file));
+  std::vector<fs::path> files = files_of_scene(scene.source.file);
+  if (scene.source.environment.is_file()) files.push_back(scene.source.environment.name);
+  watch_.watch(std::move(files));
   remember_file(state_.settings, scene.source.file);
   glfwSetWindowTitle(gl_.handle(), (scene.source.file.filename().string() + " - lumivec").c_str());
   if (state_.message_is_error) state_.message.clear();
@@ -74,14 +74,16 @@ void Window::take_scene(const EngineStatus& status) {
     }
     state_.camera.take(camera, scene.bounds.isEmpty() ? V3d(0.0) : scene.bounds.center());
     pivot_pending_ = true;
+    metering_ = options_.automatic_exposure;
     if (first && !options_.size && state_.settings.width == 0) {
       // As wide as the camera asks.
       const PictureSize wanted = size_for(camera);
       const double aspect = std::clamp(double(wanted.width) / wanted.height, 0.5, 2.4);
       const float bar = status_height(text_size_);
-      const auto width = int((usual_height - double(bar)) * aspect) +
-                         (state_.settings.panels ? int(panel_width(usual_width, text_size_)) : 0);
-      glfwSetWindowSize(gl_.handle(), width, usual_height);
+      const double height = usual_height * double(scale_.interface);
+      const auto panel = double(panel_width(usual_width * scale_.interface, text_size_));
+      const double width = (height - double(bar)) * aspect + (state_.settings.panels ? panel : 0.0);
+      glfwSetWindowSize(gl_.handle(), int(width), int(height));
     }
   } else {
     state_.file_camera = std::min(state_.file_camera, int(scene.scene.cameras.size()) - 1);
@@ -124,8 +126,10 @@ void Window::take_picture() {
   if (pivot_pending_ && same_view(picture.camera, state_.camera.camera())) {
     state_.camera.set_pivot(picture.pivot);
     pivot_pending_ = false;
-    if (options_.automatic_exposure && opened_seen_ == 1)
-      state_.look.exposure = automatic_exposure(picture.pixels);
+  }
+  if (metering_ && same_view(picture.camera, state_.camera.camera())) {
+    metering_ = false;
+    state_.look.exposure = automatic_exposure(picture.pixels);
   }
   if (picture.pick.number == picks_ && picture.pick.number != pick_seen_) {
     pick_seen_ = picture.pick.number;
