@@ -17,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 // Layers cost as much as five pictures to put together, so there are not many a second.
 constexpr double seconds_between_layers = 0.2;
+constexpr double layers_share = 0.05;  // of the time, at most
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -110,7 +111,8 @@ class EngineThread::Worker {
   void advance(const ViewRequest& view) {
     gave_up_ = false;
     fit(view);
-    if (!last_ || !same_view(*last_, view.camera)) samples_ = 0.0;
+    const bool moved = !last_ || !same_view(*last_, view.camera);
+    if (moved) samples_ = 0.0;
     last_ = view.camera;
     fresh_ = false;
 
@@ -127,8 +129,9 @@ class EngineThread::Worker {
     }
     samples_ += double(picture.figures.traced) / (double(view.width) * double(view.height));
     describe(view, picture);
-    if (view.layers &&
-        (seconds_since(layers_at_) > seconds_between_layers || samples_ >= view.rest_samples)) {
+    if (view.layers && (seconds_since(layers_at_) >
+                            std::max(seconds_between_layers, layers_seconds_ / layers_share) ||
+                        (samples_ >= view.rest_samples && !moved))) {
       publish_layers(view);
     }
     pictures_.publish();
@@ -200,6 +203,7 @@ class EngineThread::Worker {
   }
 
   void publish_layers(const ViewRequest& view) {
+    const Clock::time_point start = Clock::now();
     LayerPicture& layers = layers_.back();
     layers.scene = scene_number_;
     layers.width = width_;
@@ -213,6 +217,7 @@ class EngineThread::Worker {
     records_published_ = view.records;
     layers_.publish();
     layers_at_ = Clock::now();
+    layers_seconds_ = std::chrono::duration<double>(layers_at_ - start).count();
     layers_of_ = number_;
   }
 
@@ -233,6 +238,7 @@ class EngineThread::Worker {
   bool records_published_ = false;  // with the last layers
   PickAnswer pick_;
   Clock::time_point layers_at_ = {};
+  double layers_seconds_ = 0.0;  // that the last ones took
 };
 
 EngineThread::EngineThread(std::function<void()> on_news)

@@ -278,6 +278,7 @@ void ScriptPlayer::write_state(const fs::path& file) {
       {"resting", status.resting},
       {"frames", window_.frames()},
       {"seconds", glfwGetTime()},
+      {"own_frame_seconds", window_.own_seconds()},
       {"display_rate", window_.display_rate()},
       {"interface_scale", window_.scale().interface},
       {"first_picture_seconds", window_.first_picture_seconds()},

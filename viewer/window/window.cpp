@@ -146,6 +146,7 @@ Window::~Window() {
 
 int Window::run() {
   const InterruptGuard interrupt;
+  loop_begun_ = thread_seconds();
   while (!glfwWindowShouldClose(gl_.handle()) && !state_.quit && !interrupt.requested()) {
     const bool busy = script_ || navigator_.flying() || path_begun_ >= 0.0;
     if (script_ && script_->waiting() && !navigator_.flying() && path_begun_ < 0.0) {
@@ -169,10 +170,10 @@ int Window::run() {
       if (busy) glfwWaitEventsTimeout(0.01);  // nothing is shown that would take its time
       continue;
     }
-    upload_pictures();
+    in_driver([&] { upload_pictures(); });
     make_histogram();
     draw();
-    glfwSwapBuffers(gl_.handle());
+    in_driver([&] { glfwSwapBuffers(gl_.handle()); });
     ++frames_;
     // Drivers may pass over what glfwSwapInterval asks. A script goes on as fast as it can, apart
     // from what it has flying by the clock.

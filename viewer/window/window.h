@@ -19,6 +19,7 @@
 #include "viewer/window/navigator.h"
 #include "viewer/window/panels.h"
 #include "viewer/window/shown_settings.h"
+#include "viewer/window/thread_time.h"
 #include "viewer/window/window_app.h"
 #include "viewer/window/window_scale.h"
 #include "viewer/window/window_state.h"
@@ -55,6 +56,10 @@ class Window {
   std::array<int, 2> size() const { return {window_width_, window_height_}; }
   double first_picture_seconds() const { return first_picture_; }
   std::uint64_t frames() const { return frames_; }
+  // Processor time a frame of this thread, without what OpenGL's driver takes of it.
+  double own_seconds() const {
+    return frames_ > 0 ? (thread_seconds() - loop_begun_ - driver_seconds_) / double(frames_) : 0.0;
+  }
   double display_rate() const { return display_rate_; }
   const WindowScale& scale() const { return scale_; }
   std::size_t edits_done() const { return edits_.done(); }
@@ -106,6 +111,13 @@ class Window {
   void after_picture();  // screenshots and checks of what the picture's part shows
   void draw_interface();
   void write_shot();
+
+  template <class Calls>
+  void in_driver(const Calls& calls) {
+    const double begun = thread_seconds();
+    calls();
+    driver_seconds_ += thread_seconds() - begun;
+  }
 
   void say(const std::string& message, bool is_error = false);
   void set_display(const DisplayOptions& display);
@@ -185,8 +197,9 @@ class Window {
   double path_begun_ = -1.0;
   double watched_at_ = 0.0;
   FramePacer pacer_;
-  double display_rate_ = 60.0;  // pictures a second, of the fastest display
-  std::uint64_t frames_ = 0;    // that the window has shown
+  double display_rate_ = 60.0;                      // pictures a second, of the fastest display
+  std::uint64_t frames_ = 0;                        // that the window has shown
+  double loop_begun_ = 0.0, driver_seconds_ = 0.0;  // thread_seconds
 };
 
 }  // namespace lumivec

@@ -40,12 +40,14 @@ void Window::layout() {
 }
 
 void Window::draw() {
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glDisable(GL_SCISSOR_TEST);
-  glViewport(0, 0, canvas_width_, canvas_height_);
-  glClearColor(background.x, background.y, background.z, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT);
-  draw_picture();
+  in_driver([&] {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDisable(GL_SCISSOR_TEST);
+    glViewport(0, 0, canvas_width_, canvas_height_);
+    glClearColor(background.x, background.y, background.z, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    draw_picture();
+  });
   after_picture();
   draw_interface();
   if (!shot_file.empty()) write_shot();
@@ -150,7 +152,7 @@ void Window::draw_interface() {
                   IM_COL32(255, 200, 80, 255), "path  |");
   }
   ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  in_driver([] { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); });
   if (edit && status_.scene) {
     edits_.apply(edit->edit, edit->gesture);
     send_edits();
