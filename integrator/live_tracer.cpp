@@ -504,6 +504,14 @@ const V3d& LiveTracer::origin() const {
   return state_->traced->origin();
 }
 
+CacheSize LiveTracer::record_cache() const {
+  return {state_->cache.size(), state_->cache.bytes()};
+}
+
+CacheSize LiveTracer::photon_map() const {
+  return {state_->photons->size(), state_->photons->bytes()};
+}
+
 const RenderStatistics& LiveTracer::statistics() const {
   return state_->statistics;
 }

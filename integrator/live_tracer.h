@@ -42,6 +42,11 @@ struct SceneChanges {
   bool empty() const { return moved.empty() && deformed.empty() && !light; }
 };
 
+// What a cache holds.
+struct CacheSize {
+  std::uint64_t entries = 0, bytes = 0;
+};
+
 class LiveTracer {
  public:
   // scene must outlive this. Of the settings: integrator, validity parts, cache_error, terms, seed,
@@ -100,6 +105,9 @@ class LiveTracer {
 
   // All records of indirect light, as the present view uses them.
   std::vector<RecordMark> records() const;
+
+  CacheSize record_cache() const;  // of indirect light
+  CacheSize photon_map() const;    // of caustics
 
   const V3d& origin() const;  // world space
   const RenderStatistics& statistics() const;

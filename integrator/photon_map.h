@@ -64,6 +64,7 @@ class PhotonMap {
   static constexpr std::uint32_t usual_gather_stride = 16;
 
   bool empty() const { return photons_.empty(); }
+  std::size_t size() const { return photons_.size(); }
   std::size_t bytes() const {
     return photons_.capacity() * sizeof(Photon) + tree_.bytes() + few_tree_.bytes();
   }

@@ -42,6 +42,16 @@ TEST(CameraText, ComesBackAsTheSameView) {
   }
 }
 
+// A parallel view in a scene whose camera has no size of its own.
+TEST(CameraText, GivesAParallelViewAWidth) {
+  Camera empty = usual;
+  empty.xmag = empty.ymag = 0.0f;
+  const Camera camera = parse_camera_text("--camera", "eye=0,0,1/target=0,0,0/ymag=2", empty);
+  EXPECT_EQ(camera.kind, CameraKind::orthographic);
+  EXPECT_EQ(camera.ymag, 2.0f);
+  EXPECT_EQ(camera.xmag, 2.0f);
+}
+
 TEST(CameraText, LeavesWhatItDoesNotSay) {
   const Camera camera = parse_camera_text("--camera", "eye=1,2,3/target=1,2,0", usual);
   EXPECT_EQ(camera.yfov, usual.yfov);
@@ -62,6 +72,12 @@ TEST(CameraText, RefusesWhatIsNoView) {
             "--camera: there is no 'taget' in a view; did you mean 'target'?");
   EXPECT_EQ(refusal("eye=0,0,1/target=0,0,0/yfov=180"),
             "--camera: 180 is out of range; give a number from 0.01 to 179");
+  const std::string place = "eye=0,0,1/target=0,0,0";
+  for (const char* no_size : {"/ymag=0", "/ymag=1e-300", "/ymag=nan", "/ymag=inf", "/yfov=nan"})
+    EXPECT_EQ(refusal(place + no_size).substr(0, 10), "--camera: ") << no_size;
+  for (const char* nowhere :
+       {"eye=nan,0,0/target=0,0,0", "eye=0,0,1/target=0,inf,0", "eye=0,0,1/target=0,0,0/up=0,0,0"})
+    EXPECT_EQ(refusal(nowhere).substr(0, 10), "--camera: ") << nowhere;
   EXPECT_FALSE(is_camera_text("front"));
 }
 

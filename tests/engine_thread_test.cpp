@@ -226,37 +226,71 @@ TEST_F(Engine, ShowsAChangedScene) {
   ASSERT_TRUE(wait([&] { return engine_.status().resting && engine_.picture().number > 0; }));
   const double before = level(engine_.picture().pixels);
   // The first change makes another engine, the second one changes the scene under it.
-  for (const double factor : {4.0, 16.0}) {
-    auto changed = std::make_shared<LoadedScene>(*engine_.status().scene);
-    for (Material& material : changed->scene.materials) material.emission *= 4.0f;
-    const std::uint64_t number = engine_.status().scene_number;
+  const std::shared_ptr<const LoadedScene> scene = engine_.status().scene;
+  for (const float factor : {4.0f, 16.0f}) {
+    ScenePatch patch;
+    for (std::size_t i = 0; i < scene->scene.materials.size(); ++i) {
+      patch.materials[i] = scene->scene.materials[i];
+      patch.materials[i].emission *= factor;
+    }
     SceneChanges changes;
     changes.light = true;
-    engine_.replace(changed, changes, engine_.status().opened_number);
-    ASSERT_TRUE(wait([&] { return engine_.status().scene_number > number; }));
-    look(64.0);
-    ASSERT_TRUE(wait(
-        [&] { return engine_.picture().scene > number && engine_.picture().samples >= 64.0; }));
-    EXPECT_NEAR(level(engine_.picture().pixels), factor * before, 0.1 * factor * before);
+    const std::uint64_t change = engine_.change(patch, changes, engine_.status().opened_number);
+    ASSERT_TRUE(wait([&] {
+      look(64.0);
+      return engine_.picture().change == change && engine_.picture().samples >= 64.0;
+    }));
+    EXPECT_NEAR(level(engine_.picture().pixels), double(factor) * before,
+                0.1 * double(factor) * before);
   }
+  EXPECT_EQ(engine_.status().scene, scene) << "the file's scene stays as it is";
+}
+
+TEST_F(Engine, FollowsAnObjectThatIsMoved) {
+  open(scenes / "cornell_box_1.gltf");
+  look(4.0);
+  view_.pick = {1, 0.5, 0.5};
+  engine_.request(view_);
+  ASSERT_TRUE(wait([&] { return engine_.picture().pick.number == 1; }));
+  const int object = engine_.picture().pick.object;
+  ASSERT_GE(object, 0);
+  const double far = 10.0 * engine_.status().bounds.size().length();
+  ScenePatch patch;
+  M44d away = engine_.status().scene->scene.instances[std::size_t(object)].object_to_world;
+  away[3][1] += far;
+  patch.places[std::size_t(object)] = away;
+  SceneChanges changes;
+  changes.moved = {object};
+  const std::uint64_t change = engine_.change(patch, changes, engine_.status().opened_number);
+  view_.pick.number = 2;
+  ASSERT_TRUE(wait([&] {
+    look(4.0);
+    return engine_.picture().change == change && engine_.picture().pick.number == 2;
+  }));
+  EXPECT_NE(engine_.picture().pick.object, object);
+  EXPECT_GT(engine_.status().bounds.size().length(), 0.5 * far);
 }
 
 // What was done to the scene before does not land on the one that is opened, however late it comes.
 TEST_F(Engine, LeavesAnotherSceneAlone) {
   open(scenes / "cornell_box_1.gltf");
   const EngineStatus before = engine_.status();
+  ScenePatch patch;
+  patch.environment = Environment();
+  patch.environment->radiance = Color(100.0f);
   SceneChanges changes;
   changes.light = true;
   engine_.open({scenes / "cornell_box_2.gltf", {}, {}, {}});
   for (int i = 0; i < 50 && engine_.status().opened_number == before.opened_number; ++i) {
-    engine_.replace(before.scene, changes, before.opened_number);
+    engine_.change(patch, changes, before.opened_number);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   ASSERT_TRUE(wait([&] { return engine_.status().opened_number > before.opened_number; }));
-  engine_.replace(before.scene, changes, before.opened_number);
+  engine_.change(patch, changes, before.opened_number);
   look(4.0);
   ASSERT_TRUE(wait([&] { return engine_.picture().samples >= 4.0; }));
   EXPECT_EQ(engine_.status().scene->source.file.filename(), "cornell_box_2.gltf");
+  EXPECT_LT(level(engine_.picture().pixels), 50.0);
 }
 
 // Ending while it loads or works waits for neither a picture nor a window.

@@ -47,10 +47,28 @@ TEST_F(FileWatchTest, WaitsForAFileThatIsGone) {
   EXPECT_TRUE(watch_.changed(20.0 + settled));
 }
 
-TEST_F(FileWatchTest, SeesTheFileBesideIt) {
-  std::ofstream(folder_ / "scene.bin") << "bytes";
-  EXPECT_FALSE(watch_.changed(1.0));
-  EXPECT_TRUE(watch_.changed(1.0 + settled));
+// Buffers and images count, also ones that are not there yet.
+TEST_F(FileWatchTest, SeesWhatTheSceneNames) {
+  write(R"({"buffers": [{"uri": "mesh.bin"}, {"uri": "data:text/plain,x"}, {"byteLength": 3}],
+            "images": [{"uri": "two%20words.png"}, {"uri": 7}, {"bufferView": 0}]})");
+  const std::vector<fs::path> files = files_of_scene(file_);
+  EXPECT_EQ(files, (std::vector<fs::path>{file_, folder_ / "mesh.bin", folder_ / "two words.png"}));
+  double now = 0.0;
+  for (const char* name : {"mesh.bin", "two words.png"}) {
+    watch_.watch(files);
+    std::ofstream(folder_ / name) << "bytes";
+    EXPECT_FALSE(watch_.changed(now += 1.0));
+    EXPECT_TRUE(watch_.changed(now += settled)) << name;
+  }
+}
+
+TEST_F(FileWatchTest, TakesAnythingForAScene) {
+  for (const char* text : {"", "{", "[]", "{\"buffers\": 3}", "{\"images\": [1, null, []]}"}) {
+    write(text);
+    EXPECT_EQ(files_of_scene(file_), std::vector<fs::path>{file_}) << text;
+  }
+  EXPECT_EQ(files_of_scene(folder_ / "none.gltf").size(), 1u);
+  EXPECT_EQ(files_of_scene("room.pov").size(), 1u);
 }
 
 }  // namespace

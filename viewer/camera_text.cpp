@@ -97,8 +97,10 @@ Camera parse_camera_text(const std::string& option, const std::string& text, con
       camera.yfov = float(parse_number(option, value, least, most) * degree);
     } else if (name == "ymag") {
       camera.kind = CameraKind::orthographic;
-      const auto ymag = float(parse_number_above(option, value, 0.0, farthest));
-      camera.xmag *= ymag / camera.ymag;
+      // As wide as before for its height; the given camera may be a perspective without either.
+      const auto ymag = float(parse_number(option, value, 1.0 / farthest, farthest));
+      const float ratio = camera.xmag / camera.ymag;
+      camera.xmag = ymag * (std::isfinite(ratio) && ratio > 0.0f ? ratio : 1.0f);
       camera.ymag = ymag;
     } else {
       throw UsageError(option + ": there is no '" + name + "' in a view; " +

@@ -34,10 +34,11 @@ void add_beauty(std::vector<ExrChannel>& channels, std::uint32_t terms, bool is_
 
 }  // namespace
 
-std::vector<ExrChannel> exr_channels(std::uint32_t terms, ExrPrecision precision) {
+std::vector<ExrChannel> exr_channels(std::uint32_t terms, ExrPrecision precision,
+                                     std::uint32_t beauty) {
   const bool is_half = precision == ExrPrecision::half;
   std::vector<ExrChannel> channels;
-  add_beauty(channels, terms, is_half);
+  add_beauty(channels, terms & beauty, is_half);
   for (std::size_t t = 0; t < std::size_t(term_count); ++t) {
     if (!(terms >> t & 1u)) continue;
     for (int c = 0; c < 3; ++c) {

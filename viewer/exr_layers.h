@@ -1,6 +1,6 @@
 // What an OpenEXR picture of a render holds, channel by channel.
 //
-//   R G B                  the beauty: the sum of the stored layers, rounded once
+//   R G B                  the beauty: the sum of the layers that it is to show, rounded once
 //   emitted.R … caustic.B  the five terms, those that were computed; radiance
 //   albedo.R … albedo.B    first hit, [0, 1]
 //   N.X N.Y N.Z            first hit's normal, world space
@@ -31,8 +31,9 @@ struct ExrChannel {
 };
 
 // The channels of a render of these terms (bits as RenderSettings::terms), in the order of the list
-// above.
-std::vector<ExrChannel> exr_channels(std::uint32_t terms, ExrPrecision precision);
+// above. beauty: which of them are its sum.
+std::vector<ExrChannel> exr_channels(std::uint32_t terms, ExrPrecision precision,
+                                     std::uint32_t beauty);
 
 // Bytes of one pixel in channel order without padding, as OpenImageIO takes them.
 std::size_t exr_pixel_bytes(const std::vector<ExrChannel>& channels);

@@ -87,7 +87,8 @@ StillFormat still_format(const fs::path& file) {
 
 std::uint64_t write_exr(const fs::path& file, const Framebuffer& framebuffer,
                         const ExrOptions& options, const StillHeader& header) {
-  const std::vector<ExrChannel> channels = exr_channels(options.terms, options.precision);
+  const std::vector<ExrChannel> channels =
+      exr_channels(options.terms, options.precision, options.beauty);
   OIIO::ImageSpec spec(framebuffer.width, framebuffer.height, int(channels.size()),
                        OIIO::TypeDesc::FLOAT);
   spec.channelnames.clear();

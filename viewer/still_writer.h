@@ -30,6 +30,7 @@ struct StillHeader {
 struct ExrOptions {
   std::uint32_t terms = (1u << term_count) - 1;  // layers to write, bits as RenderSettings::terms
   ExrPrecision precision = ExrPrecision::half;
+  std::uint32_t beauty = (1u << term_count) - 1;  // which of them add up to the beauty
 };
 
 // Writes all layers (exr_layers.h). Returns how many pixels had to be clamped to half's range.

@@ -4,7 +4,7 @@ namespace lumivec {
 
 int run_view(const ViewOptions& options) {
   WindowOptions window = options.window;
-  if (!options.source.file.empty()) window.scene = options.source;
+  window.scene = options.source;
   return run_window(window);
 }
 

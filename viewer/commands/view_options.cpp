@@ -12,7 +12,10 @@ namespace lumivec {
 std::string view_footer() {
   return key_help() +
          "\n  lumivec view room.gltf\n"
-         "  lumivec view room.gltf --environment sky --view Raw";
+         "  lumivec view room.gltf --environment sky --view Raw\n"
+         "  lumivec view --environment sky     # lights what is dropped on the window\n\n"
+         "  --scene, --allow-outside-files, --at and --animation are for the first file that is\n"
+         "  opened, the other options for later ones too; --exposure auto measures each.";
 }
 
 void add_view_options(CLI::App& app, ViewOptions& options) {

@@ -57,6 +57,8 @@ class ShadingCache {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  // Of what pixels show, in this frame and the one before.
+  std::size_t bytes() const { return shades_.bytes() + last_shades_.bytes(); }
   // Mean over the pixels of the frames since they were traced, as the frame began.
   double mean_age() const;
   // Pixels that rest on no sample.
@@ -80,6 +82,10 @@ class ShadingCache {
 
     explicit Shades(std::size_t pixels);
     void clear(std::size_t pixel);
+    std::size_t bytes() const {
+      return shade.size() * sizeof(Shade) + age.size() * sizeof(std::uint16_t) +
+             (specular_samples.size() + noise.size()) * sizeof(float);
+    }
   };
   // Curvatures of what is seen, by instance.
   std::vector<float> curvatures_;

@@ -218,6 +218,13 @@ void WalkEngine::update(const SceneChanges& changes) {
   seconds_since_change_ = 0.0;
 }
 
+WalkEngine::Caches WalkEngine::caches() const {
+  const std::size_t pixels = std::size_t(shading_.width()) * std::size_t(shading_.height());
+  return {tracer_.record_cache(),
+          tracer_.photon_map(),
+          {pixels - shading_.hole_count(), shading_.bytes()}};
+}
+
 V3d WalkEngine::pivot() const {
   return pivot_;
 }

@@ -61,6 +61,11 @@ class WalkEngine {
   // Records of cached light, as the last frame used them.
   std::vector<RecordMark> records() const { return tracer_.records(); }
 
+  struct Caches {
+    CacheSize records, photons, shading;  // entries: records, photons, pixels that show something
+  };
+  Caches caches() const;
+
   // Where the eye looks: the point at the middle of the last frame, world space; the scene's middle
   // if nothing is there.
   V3d pivot() const;

@@ -22,17 +22,18 @@ BackgroundRender::State BackgroundRender::state() const {
   return state_;
 }
 
-void BackgroundRender::start(std::shared_ptr<const LoadedScene> scene, const Camera& camera,
-                             const RenderSettings& settings, Finish finish,
-                             std::function<void()> on_news) {
+int BackgroundRender::start(std::shared_ptr<const LoadedScene> scene, const ScenePatch& patch,
+                            const Camera& camera, const RenderSettings& settings, Finish finish,
+                            std::function<void()> on_news) {
   cancel();
+  const int number = ++number_;
   {
     const std::lock_guard lock(mutex_);
     state_.running = true;
     state_.fraction = 0.0;
     state_.seconds_left = 0.0;
   }
-  thread_ = std::thread([this, scene = std::move(scene), camera, settings,
+  thread_ = std::thread([this, number, scene = std::move(scene), patch, camera, settings,
                          finish = std::move(finish), on_news = std::move(on_news)] {
     const auto progress = [&](const RenderProgress& now) {
       {
@@ -47,7 +48,13 @@ void BackgroundRender::start(std::shared_ptr<const LoadedScene> scene, const Cam
     bool failed = false;
     try {
       RenderStatistics statistics;
-      const Framebuffer picture = render(scene->scene, camera, settings, statistics, progress);
+      std::optional<Scene> changed;
+      if (!patch.empty()) {
+        changed = scene->scene;
+        apply_patch(patch, *changed);
+      }
+      const Scene& traced = changed ? *changed : scene->scene;
+      const Framebuffer picture = render(traced, camera, settings, statistics, progress);
       if (cancelled_) return;
       said = finish(picture, statistics);
     } catch (const std::bad_alloc&) {
@@ -63,10 +70,11 @@ void BackgroundRender::start(std::shared_ptr<const LoadedScene> scene, const Cam
       state_.running = false;
       state_.failed = failed;
       state_.said = said;
-      ++state_.ended;
+      state_.ended = number;
     }
     on_news();
   });
+  return number;
 }
 
 }  // namespace lumivec

@@ -10,6 +10,7 @@
 
 #include "integrator/render.h"
 #include "viewer/window/loaded_scene.h"
+#include "viewer/window/scene_patch.h"
 
 namespace lumivec {
 
@@ -24,10 +25,11 @@ class BackgroundRender {
   BackgroundRender(const BackgroundRender&) = delete;
   BackgroundRender& operator=(const BackgroundRender&) = delete;
 
-  // Ends a render that is going on, without its Finish. on_news is called on the render's thread
-  // when progress is made and when it ends.
-  void start(std::shared_ptr<const LoadedScene> scene, const Camera& camera,
-             const RenderSettings& settings, Finish finish, std::function<void()> on_news);
+  // Of the scene with the patch. Ends a render that is going on, without its Finish. on_news is
+  // called on the render's thread when progress is made and when it ends. Returns the render's
+  // number.
+  int start(std::shared_ptr<const LoadedScene> scene, const ScenePatch& patch, const Camera& camera,
+            const RenderSettings& settings, Finish finish, std::function<void()> on_news);
   // Waits until the render has noticed.
   void cancel();
 
@@ -35,15 +37,16 @@ class BackgroundRender {
     bool running = false;
     double fraction = 0.0;  // done
     double seconds_left = 0.0;
-    int ended = 0;        // counts renders that ended by themselves
-    bool failed = false;  // the last of them
-    std::string said;     // what the last of them has to say
+    int ended = 0;        // number of the last render that ended by itself; 0: none has
+    bool failed = false;  // that one
+    std::string said;     // what that one has to say
   };
   State state() const;
 
  private:
   std::thread thread_;
   std::atomic<bool> cancelled_ = false;
+  int number_ = 0;  // of the last render that was started
   mutable std::mutex mutex_;
   State state_;
 };

@@ -2,6 +2,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "viewer/window/panels.h"
@@ -54,8 +55,7 @@ bool edit_light(const char* label, Color& value) {
   return changed;
 }
 
-void draw_material(const LoadedScene& scene, int index, Editor& editor) {
-  const Material& before = scene.scene.materials[std::size_t(index)];
+void draw_material(const Material& before, int index, Editor& editor) {
   Material m = before;
   const auto changed = [&](bool is_changed) {
     if (is_changed) editor.change<MaterialEdit>(std::size_t(index), before, m);
@@ -74,33 +74,56 @@ void draw_material(const LoadedScene& scene, int index, Editor& editor) {
   changed(edit_light("Emission", m.emission));
 }
 
-void draw_place(const LoadedScene& scene, int index, Editor& editor) {
-  const Instance& instance = scene.scene.instances[std::size_t(index)];
-  const M44d before = instance.object_to_world;
-  float place[3] = {float(before[3][0]), float(before[3][1]), float(before[3][2])};
-  const float step = float(scene.bounds.size().length()) * 1e-3f;
-  if (!ImGui::DragFloat3("Place", place, step, 0.0f, 0.0f, "%.4g")) return;
-  M44d after = before;
+// What is typed and dragged stays as it is while the transform is what it makes: angles taken from
+// the transform would jump where several mean the same.
+void draw_place(WindowState& state, const Imath::Box3d& bounds, const M44d& before, int index,
+                Editor& editor) {
+  ObjectPlace& place = state.picked_place;
+  if (transform_of(place) != before) place = place_of(before);
+  const auto edit = [](const char* label, V3d& value, float step, const char* format) {
+    float numbers[3] = {float(value.x), float(value.y), float(value.z)};
+    const auto shown = std::to_array(numbers);
+    if (!ImGui::DragFloat3(label, numbers, step, 0.0f, 0.0f, format)) return false;
+    for (int i = 0; i < 3; ++i) {
+      if (numbers[i] != shown[std::size_t(i)] && std::isfinite(numbers[i]))
+        value[i] = double(numbers[i]);
+    }
+    return true;
+  };
+  ObjectPlace wanted = place;
+  const float step = float(bounds.size().length()) * 1e-3f;
+  bool changed = edit("Place", wanted.place, step, "%.4g");
+  changed |= edit("Turn", wanted.turn, 0.5f, "%.1f");
+  changed |= edit("Size", wanted.size, 0.01f, "%.4g");
+  if (!changed) return;
+  // What has no extent cannot be traced; it stays on its side of zero.
+  constexpr double least_size = 1e-4;
   for (int i = 0; i < 3; ++i) {
-    if (std::isfinite(place[i])) after[3][i] = double(place[i]);
+    const double sign = place.size[i] < 0.0 ? -1.0 : 1.0;
+    wanted.size[i] = sign * std::max(sign * wanted.size[i], least_size);
   }
+  // It turns and grows about its middle, wherever its origin is.
+  if (wanted.turn != place.turn || wanted.size != place.size)
+    wanted.place += state.picked->center * before - state.picked->center * transform_of(wanted);
+  const M44d after = transform_of(wanted);
+  if (after == before) return;
+  place = wanted;
   editor.change<PlaceEdit>(std::size_t(index), before, after);
 }
 
-void draw_lights(const LoadedScene& scene, Editor& editor) {
-  const std::vector<Light>& lights = scene.scene.lights;
+void draw_lights(const Scene& scene, const ScenePatch& patch, Editor& editor) {
   constexpr std::size_t most = 16;  // more belong in a modeller
-  for (std::size_t i = 0; i < std::min(lights.size(), most); ++i) {
+  for (std::size_t i = 0; i < std::min(scene.lights.size(), most); ++i) {
     ImGui::PushID(int(i));
-    Light light = lights[i];
+    const Light& before = patch.light(scene, i);
+    Light light = before;
     const std::string name = light.name.empty() ? "Light " + std::to_string(i) : light.name;
-    if (edit_light(name.c_str(), light.intensity)) editor.change<LightEdit>(i, lights[i], light);
+    if (edit_light(name.c_str(), light.intensity)) editor.change<LightEdit>(i, before, light);
     ImGui::PopID();
   }
 }
 
-void draw_environment(const LoadedScene& scene, Editor& editor) {
-  const Environment& before = scene.scene.environment;
+void draw_environment(const Environment& before, Editor& editor) {
   Environment sky = before;
   if (sky.image < 0 && sky.radiance == Color(0.0f)) {
     if (ImGui::Button("Light it with a sky")) {
@@ -119,22 +142,24 @@ void draw_environment(const LoadedScene& scene, Editor& editor) {
 
 void draw_edit_section(WindowState& state, const PanelInput& input, std::optional<EditWish>& edit) {
   if (!ImGui::CollapsingHeader("Lights and materials") || !input.scene) return;
-  const LoadedScene& scene = *input.scene;
+  const Scene& scene = input.scene->scene;
+  const ScenePatch& patch = *input.patch;
   count_gestures(state);
   Editor editor(edit, state.gesture);
-  const auto instances = int(scene.scene.instances.size());
+  const auto instances = int(scene.instances.size());
   const int object = state.picked ? state.picked->object : -1;
   if (object >= 0 && object < instances) {
-    ImGui::TextWrapped("%s, material %s", object_name(scene.scene, object).c_str(),
-                       material_name(scene.scene, object).c_str());
-    const int material = scene.scene.instances[std::size_t(object)].material;
-    if (material >= 0) draw_material(scene, material, editor);
-    draw_place(scene, object, editor);
+    ImGui::TextWrapped("%s, material %s", object_name(scene, object).c_str(),
+                       material_name(scene, object).c_str());
+    const int material = scene.instances[std::size_t(object)].material;
+    if (material >= 0)
+      draw_material(patch.material(scene, std::size_t(material)), material, editor);
+    draw_place(state, input.bounds, patch.place(scene, std::size_t(object)), object, editor);
   } else {
     ImGui::TextWrapped("Double-click an object to change its material.");
   }
-  draw_lights(scene, editor);
-  draw_environment(scene, editor);
+  draw_lights(scene, patch, editor);
+  draw_environment(patch.sky(scene), editor);
   if (ImGui::Button("Undo (Ctrl+Z)")) state.wishes.undo = true;
   ImGui::SameLine();
   if (ImGui::Button("Redo (Ctrl+Y)")) state.wishes.redo = true;

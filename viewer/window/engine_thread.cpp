@@ -7,6 +7,7 @@
 #include <cmath>
 #include <new>
 
+#include "viewer/scene_summary.h"
 #include "viewer/window/picture_point.h"
 
 namespace lumivec {
@@ -16,9 +17,19 @@ using Clock = std::chrono::steady_clock;
 
 // Layers cost as much as five pictures to put together, so there are not many a second.
 constexpr double seconds_between_layers = 0.2;
+constexpr double layers_share = 0.05;  // of the time, at most
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The middle of an instance's shape, object space.
+V3d center_of(const Scene& scene, int instance) {
+  const int mesh = scene.instances[std::size_t(instance)].mesh;
+  if (mesh < 0) return V3d(0.0);  // spheres lie around their origin
+  Imath::Box3f bounds;
+  for (const V3f& position : scene.meshes[std::size_t(mesh)].positions) bounds.extendBy(position);
+  return bounds.isEmpty() ? V3d(0.0) : V3d(bounds.center());
 }
 
 std::string loading(const SceneSource& source) {
@@ -45,33 +56,31 @@ class EngineThread::Worker {
     begin(view);
   }
 
-  // The scene as the user has changed it. The first change makes an engine on a scene that can be
+  // The scene as the user has changed it. The first change makes an engine on a copy that can be
   // changed under it.
-  void change_scene(std::shared_ptr<const LoadedScene> scene, std::uint64_t number,
-                    const SceneChanges& changes, const ViewRequest& view) {
-    if (!engine_) return;
-    const Scene& from = scene->scene;
-    if (edited_ && edited_->instances.size() == from.instances.size() &&
-        edited_->materials.size() == from.materials.size()) {
-      edited_->materials = from.materials;
-      edited_->lights = from.lights;
-      edited_->environment = from.environment;
-      for (std::size_t i = 0; i < from.instances.size(); ++i)
-        edited_->instances[i].object_to_world = from.instances[i].object_to_world;
+  void change_scene(const ScenePatch& patch, const SceneChanges& changes, std::uint64_t number,
+                    const ViewRequest& view) {
+    if (edited_) {
+      apply_patch(patch, *edited_);
       engine_->update(changes);
       if (compared_) compared_->update(changes);
     } else {
-      auto edited = std::make_unique<Scene>(from);
+      auto edited = std::make_unique<Scene>(scene_->scene);
+      apply_patch(patch, *edited);
       engine_ = make_engine(*edited, view, knobs_.light_vectors);
       compared_.reset();
       edited_ = std::move(edited);
       begin(view);
     }
-    scene_ = std::move(scene);
     scene_number_ = number;
     samples_ = 0.0;
     fresh_ = true;
   }
+
+  bool has_scene() const { return engine_ != nullptr; }
+  Imath::Box3d bounds() const { return world_bounds(traced()); }
+  // EnginePicture::change from now on.
+  void count_change(std::uint64_t change) { change_ = change; }
 
   void set_knobs(const EngineKnobs& knobs, const ViewRequest& view) {
     if (knobs == knobs_) return;
@@ -102,7 +111,8 @@ class EngineThread::Worker {
   void advance(const ViewRequest& view) {
     gave_up_ = false;
     fit(view);
-    if (!last_ || !same_view(*last_, view.camera)) samples_ = 0.0;
+    const bool moved = !last_ || !same_view(*last_, view.camera);
+    if (moved) samples_ = 0.0;
     last_ = view.camera;
     fresh_ = false;
 
@@ -119,8 +129,9 @@ class EngineThread::Worker {
     }
     samples_ += double(picture.figures.traced) / (double(view.width) * double(view.height));
     describe(view, picture);
-    if (view.layers &&
-        (seconds_since(layers_at_) > seconds_between_layers || samples_ >= view.rest_samples)) {
+    if (view.layers && (seconds_since(layers_at_) >
+                            std::max(seconds_between_layers, layers_seconds_ / layers_share) ||
+                        (samples_ >= view.rest_samples && !moved))) {
       publish_layers(view);
     }
     pictures_.publish();
@@ -161,6 +172,8 @@ class EngineThread::Worker {
   void describe(const ViewRequest& view, EnginePicture& picture) {
     picture.scene = scene_number_;
     picture.number = ++number_;
+    picture.change = change_;
+    picture.knobs = knobs_;
     picture.width = width_;
     picture.height = height_;
     picture.camera = view.camera;
@@ -169,6 +182,7 @@ class EngineThread::Worker {
     picture.samples = samples_;
     picture.records = engine_->statistics().records;
     picture.cache_bytes = engine_->statistics().cache_bytes;
+    picture.caches = engine_->caches();
     if (view.pick.number != pick_.number) pick_ = answer(view);
     picture.pick = pick_;
   }
@@ -182,12 +196,14 @@ class EngineThread::Worker {
     const VisibleSurfaces& seen = engine_->surfaces();
     if (seen.object[pixel] < 0) return pick;
     pick.object = seen.object[pixel];
+    pick.center = center_of(scene_->scene, pick.object);
     pick.point =
         point_seen(view.camera, width_, height_, x + 0.5, y + 0.5, double(seen.depth[pixel]));
     return pick;
   }
 
   void publish_layers(const ViewRequest& view) {
+    const Clock::time_point start = Clock::now();
     LayerPicture& layers = layers_.back();
     layers.scene = scene_number_;
     layers.width = width_;
@@ -201,6 +217,7 @@ class EngineThread::Worker {
     records_published_ = view.records;
     layers_.publish();
     layers_at_ = Clock::now();
+    layers_seconds_ = std::chrono::duration<double>(layers_at_ - start).count();
     layers_of_ = number_;
   }
 
@@ -209,7 +226,7 @@ class EngineThread::Worker {
   std::optional<tbb::global_control> limit_;
   EngineKnobs knobs_;
   std::shared_ptr<const LoadedScene> scene_;
-  std::uint64_t scene_number_ = 0;
+  std::uint64_t scene_number_ = 0, change_ = 0;
   std::unique_ptr<Scene> edited_;  // what engines look at once the user has changed something
   std::unique_ptr<WalkEngine> engine_, compared_;
   int width_ = 1, height_ = 1;
@@ -221,6 +238,7 @@ class EngineThread::Worker {
   bool records_published_ = false;  // with the last layers
   PickAnswer pick_;
   Clock::time_point layers_at_ = {};
+  double layers_seconds_ = 0.0;  // that the last ones took
 };
 
 EngineThread::EngineThread(std::function<void()> on_news)
@@ -245,20 +263,23 @@ void EngineThread::open(const SceneSource& source, bool keep_camera) {
   wake_.notify_one();
 }
 
-void EngineThread::replace(std::shared_ptr<const LoadedScene> scene, const SceneChanges& changes,
-                           std::uint64_t opened) {
+std::uint64_t EngineThread::change(const ScenePatch& patch, const SceneChanges& changes,
+                                   std::uint64_t opened) {
+  std::uint64_t number = 0;
   {
     const std::lock_guard lock(mutex_);
-    if (opened != status_.opened_number) return;
-    if (!orders_.replace) orders_.changes = {};
-    orders_.replace = std::move(scene);
+    if (opened != status_.opened_number) return orders_.change;
+    if (!orders_.patch) orders_.changes = {};
+    orders_.patch = patch;
     orders_.changes.light |= changes.light;
     for (const int instance : changes.moved) {
       std::vector<int>& moved = orders_.changes.moved;
       if (std::find(moved.begin(), moved.end(), instance) == moved.end()) moved.push_back(instance);
     }
+    number = ++orders_.change;
   }
   wake_.notify_one();
+  return number;
 }
 
 void EngineThread::request(const ViewRequest& request) {
@@ -315,7 +336,7 @@ void EngineThread::run() {
     {
       std::unique_lock lock(mutex_);
       const auto wanted = [&] {
-        return orders_.stop || orders_.open || orders_.replace ||
+        return orders_.stop || orders_.open || orders_.patch ||
                worker.has_work(orders_.view, orders_.view_changed);
       };
       if (!wanted()) {
@@ -331,43 +352,49 @@ void EngineThread::run() {
       // Changes of the scene there is wait for whether another one can be opened.
       if (orders.open) {
         orders_.open.reset();
-        orders.replace.reset();
-      } else if (orders.replace) {
-        orders_.replace.reset();
+        orders.patch.reset();
+      } else if (orders.patch) {
+        orders_.patch.reset();
       } else {
         orders_.view_changed = false;
       }
     }
     bool is_new = true;  // the scene, or what it holds
     try {
-      std::shared_ptr<const LoadedScene> scene = orders.replace;
+      std::uint64_t number = 0;
+      {
+        const std::lock_guard lock(mutex_);
+        number = status_.scene_number + 1;
+      }
       if (orders.open) {
         tell([&](EngineStatus& status) { status.doing = loading(*orders.open); });
-        scene = load_shared_scene(*orders.open);
-      }
-      if (scene) {
-        std::uint64_t number = 0;
-        {
-          const std::lock_guard lock(mutex_);
-          number = status_.scene_number + 1;
-        }
+        const std::shared_ptr<const LoadedScene> scene = load_shared_scene(*orders.open);
         worker.set_knobs(orders.knobs, orders.view);
-        if (orders.open) {
-          worker.set_scene(scene, number, orders.view);
-        } else {
-          worker.change_scene(scene, number, orders.changes, orders.view);
-        }
+        worker.set_scene(scene, number, orders.view);
         tell([&](EngineStatus& status) {
           if (!orders_.open) status.doing.clear();
           status.scene = scene;
+          status.bounds = scene->bounds;
           status.scene_number = number;
-          if (!orders.open) return;
           status.error.clear();
           status.keep_camera = orders.keep_camera;
           ++status.opened_number;
-          orders_.replace.reset();  // it was of the scene before
+          orders_.patch.reset();  // it was of the scene before
+          worker.count_change(orders_.change);
         });
         continue;  // the window may want to see the new scene from somewhere else
+      }
+      if (orders.patch && worker.has_scene()) {
+        worker.set_knobs(orders.knobs, orders.view);
+        worker.change_scene(*orders.patch, orders.changes, number, orders.view);
+        worker.count_change(orders.change);
+        const std::optional<Imath::Box3d> bounds =
+            orders.changes.moved.empty() ? std::nullopt : std::optional(worker.bounds());
+        tell([&](EngineStatus& status) {
+          status.scene_number = number;
+          if (bounds) status.bounds = *bounds;
+        });
+        continue;
       }
       is_new = false;
       worker.set_knobs(orders.knobs, orders.view);

@@ -20,6 +20,7 @@
 #include "integrator/visible_surfaces.h"
 #include "viewer/walk/walk_engine.h"
 #include "viewer/window/loaded_scene.h"
+#include "viewer/window/scene_patch.h"
 #include "viewer/window/triple_buffer.h"
 
 namespace lumivec {
@@ -38,6 +39,7 @@ struct PickAnswer {
   std::uint64_t number = 0;
   int object = -1;  // index into Scene::instances; -1: nothing is there
   V3d point{0.0};   // world space
+  V3d center{0.0};  // of the object, in its own space
 };
 
 struct ViewRequest {
@@ -68,6 +70,8 @@ struct EngineKnobs {
 struct EnginePicture {
   std::uint64_t scene = 0;  // EngineStatus::scene_number
   std::uint64_t number = 0;
+  std::uint64_t change = 0;  // EngineThread::change: the last one that it shows
+  EngineKnobs knobs;         // of the engine that made it
   int width = 0, height = 0;
   Camera camera;
   std::uint32_t terms = 0;
@@ -77,6 +81,7 @@ struct EnginePicture {
   V3d pivot{0.0};        // WalkEngine::pivot
   double samples = 0.0;  // a pixel, mean, since the view came to rest
   std::uint64_t records = 0, cache_bytes = 0;
+  WalkEngine::Caches caches;
   PickAnswer pick;
 };
 
@@ -91,14 +96,15 @@ struct LayerPicture {
 };
 
 struct EngineStatus {
-  std::string doing;               // "loading FILE"; empty: nothing that takes long
-  std::string error;               // of the last thing that failed; empty: none
-  std::uint64_t error_number = 0;  // counts them
-  std::shared_ptr<const LoadedScene> scene;
-  std::uint64_t scene_number = 0;   // counts scenes and changes of them
-  std::uint64_t opened_number = 0;  // counts files that were opened
-  bool keep_camera = false;         // as the last of them was asked for
-  bool resting = false;             // there is nothing to do
+  std::string doing;                         // "loading FILE"; empty: nothing that takes long
+  std::string error;                         // of the last thing that failed; empty: none
+  std::uint64_t error_number = 0;            // counts them
+  std::shared_ptr<const LoadedScene> scene;  // as the file has it
+  Imath::Box3d bounds;                       // of the scene as the user has changed it, world space
+  std::uint64_t scene_number = 0;            // counts scenes and changes of them
+  std::uint64_t opened_number = 0;           // counts files that were opened
+  bool keep_camera = false;                  // as the last of them was asked for
+  bool resting = false;                      // there is nothing to do
 };
 
 class EngineThread {
@@ -111,11 +117,12 @@ class EngineThread {
 
   // keep_camera: for the status once it is open.
   void open(const SceneSource& source, bool keep_camera = false);
-  // Another scene in place of the one there is: the same file, changed by the user in what
-  // `changes` says. Cached light is kept where it can be. `opened` is the status's opened_number
-  // that the scene is of: has no effect once another file is open.
-  void replace(std::shared_ptr<const LoadedScene> scene, const SceneChanges& changes,
-               std::uint64_t opened);
+  // The scene there is, changed by the user: patch is all that differs from the file's, `changes`
+  // what has become different by this call. Cached light is kept where it can be. `opened` is the
+  // status's opened_number that the patch is of: has no effect once another file is open. Returns a
+  // number that EnginePicture::change reaches once this is seen, or no longer waited for. Takes no
+  // longer for a large scene than for a small one.
+  std::uint64_t change(const ScenePatch& patch, const SceneChanges& changes, std::uint64_t opened);
   void request(const ViewRequest& request);
   void set_knobs(const EngineKnobs& knobs);
 
@@ -131,8 +138,9 @@ class EngineThread {
   struct Orders {
     std::optional<SceneSource> open;
     bool keep_camera = false;  // when it is open
-    std::shared_ptr<const LoadedScene> replace;
-    SceneChanges changes;  // since the scene that the thread knows
+    std::optional<ScenePatch> patch;
+    SceneChanges changes;  // since the patch that the thread knows
+    std::uint64_t change = 0;
     ViewRequest view;
     EngineKnobs knobs;
     bool view_changed = false;

@@ -34,7 +34,8 @@ class FileWatch {
   double since_ = 0.0;
 };
 
-// The scene file, and the binary file of the same name beside it that exporters write with it.
+// The scene file, and what a glTF file names as its buffers and images, whether they are there or
+// not. A file that cannot be read has none.
 std::vector<std::filesystem::path> files_of_scene(const std::filesystem::path& scene);
 
 }  // namespace lumivec

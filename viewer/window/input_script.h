@@ -7,8 +7,14 @@
 //   click X Y           double X Y                drag BUTTON X Y X Y [Shift|Ctrl]
 //   text WORDS          typed                     drop FILE
 //   resize WxH          minimise / restore
-//   wait SECONDS        frames N                  until loaded|rest|error|errors|idle
-//   until samples N     of the view at rest
+//   wait SECONDS        frames N
+//   until loaded        the view that is asked for is shown; likewise:
+//   until rest          it is finished            until samples N   of it at rest
+//   until wipe          with path tracing beside  until errors      its error map
+//   until records       records of cached light   until picked      double clicks are answered
+//   until opened N      files, counted            until size WxH    of the window
+//   until idle          nothing is loaded or rendered in the background
+//   until error         a message of a failure    until minimised / restored
 //   shot FILE.png       the whole window          state FILE.json    what there is
 //   check-display       that the picture is what DisplayTransform makes, within 1/255
 //   copy FROM TO        a file                    quit

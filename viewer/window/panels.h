@@ -12,6 +12,8 @@ namespace lumivec {
 // What panels read. Pointers may be null where there is nothing yet.
 struct PanelInput {
   const LoadedScene* scene = nullptr;
+  const ScenePatch* patch = nullptr;  // of the scene; never null with one
+  Imath::Box3d bounds;                // of both, world space
   const EnginePicture* picture = nullptr;
   const LayerPicture* layers = nullptr;
   const Histogram* histogram = nullptr;

@@ -2,13 +2,10 @@
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <fstream>
 
-#include "viewer/camera_text.h"
-#include "viewer/errors.h"
 #include "viewer/still_writer.h"
-#include "viewer/text_format.h"
+#include "viewer/window/new_files.h"
 
 namespace fs = std::filesystem;
 
@@ -23,81 +20,82 @@ std::string stem_of(const LoadedScene& scene) {
   return scene.source.file.stem().string();
 }
 
+Color sum_of(const Framebuffer& picture, std::uint32_t terms, std::size_t pixel) {
+  Color sum(0.0f);
+  for (std::size_t t = 0; t < std::size_t(term_count); ++t) {
+    if (terms >> t & 1u) sum += picture.terms[t][pixel];
+  }
+  return sum;
+}
+
 }  // namespace
 
-fs::path free_name(const fs::path& folder, const std::string& stem, const std::string& extension) {
-  constexpr int most = 9999;
-  for (int i = 1; i <= most; ++i) {
-    char number[16];
-    std::snprintf(number, sizeof(number), "_%04d", i);
-    const fs::path file = folder / (stem + number + extension);
-    std::error_code error;
-    if (!fs::exists(fs::symlink_status(file, error))) return file;
-  }
-  throw CommandError(folder.string() + ": holds 9999 pictures of this scene; move some away");
-}
-
-std::string settings_text(const WindowState& state, const DisplayOptions& display) {
-  std::string text = "--camera " + camera_text(state.camera.camera(), state.camera.pivot()) +
-                     " --terms " + terms_text(state.terms) + " --exposure " +
-                     format_number(state.look.exposure) + " --display '" + display.display +
-                     "' --view '" + display.view + "'";
-  if (!display.look.empty()) text += " --look '" + display.look + "'";
-  if (!display.config.empty()) text += " --ocio '" + display.config + "'";
-  return text;
-}
-
-fs::path write_screenshot(const fs::path& folder, const Picture& shown, const LoadedScene& scene,
-                          const WindowState& state, const DisplayOptions& display,
+fs::path write_screenshot(const fs::path& folder, const Picture& pixels, const ShownPicture& shown,
                           const WindowFigures& figures) {
-  const fs::path file = free_name(folder, stem_of(scene), ".png");
   StillHeader header;
-  header.scene = scene.source.file.string();
-  header.settings = settings_text(state, display);
+  header.scene = shown.scene.source.file.string();
+  header.settings = settings_text(shown);
   header.samples = figures.samples;
   header.seconds = figures.seconds;
-  write_displayed(file, shown, {8, is_srgb(display)}, header);
-  return file;
+  NewFiles files(folder, stem_of(shown.scene), {".png"});
+  write_displayed(files.file(0), pixels, {8, is_srgb(shown.display)}, header);
+  files.keep();
+  return files.file(0);
 }
 
 void start_still(BackgroundRender& render, const std::shared_ptr<const LoadedScene>& scene,
-                 const WindowState& state, const DisplayOptions& display, const fs::path& folder,
-                 const PictureSize& size, const std::function<void()>& on_news) {
-  const StillWish& still = state.still;
+                 const ShownPicture& shown, const fs::path& folder,
+                 const std::function<void()>& on_news) {
+  const WindowState& state = shown.state;
+  const StillWish still = state.still;
   RenderSettings settings;
-  settings.width = size.width;
-  settings.height = size.height;
+  settings.width = shown.size.width;
+  settings.height = shown.size.height;
   settings.samples = still.samples;
   settings.integrator = still.path_tracing ? Integrator::path : Integrator::light_vectors;
   settings.cache_error = state.knobs.error;
-  settings.terms = state.terms;
+  settings.terms = all_terms;
   settings.seed = state.knobs.seed;
   settings.threads = state.knobs.threads;
+  // What is displayed of it: neither the window's method nor its maps.
+  WindowState plain = state;
+  plain.knobs.light_vectors = !still.path_tracing;
+  plain.look.mode = DisplayMode::view;
+  plain.look.channel = Channel::color;
+  plain.layer = Layer::light;
+  plain.wipe = plain.error_map = false;
   StillHeader header;
   header.scene = scene->source.file.string();
-  header.settings = settings_text(state, display) + " --spp " + std::to_string(still.samples);
+  header.settings = "--spp " + std::to_string(still.samples) + " " +
+                    settings_text({shown.scene, shown.patch, plain, shown.display, shown.size});
   header.samples = still.samples;
-  const fs::path exr = still.exr ? free_name(folder, stem_of(*scene), ".exr") : fs::path();
-  const fs::path png = still.png ? free_name(folder, stem_of(*scene), ".png") : fs::path();
-  const double exposure = state.look.exposure;
-  const auto finish = [=](const Framebuffer& picture, const RenderStatistics& statistics) {
+  const auto finish = [still, header, folder, stem = stem_of(*scene), terms = state.terms,
+                       display = shown.display, exposure = state.look.exposure](
+                          const Framebuffer& picture, const RenderStatistics& statistics) {
     StillHeader made = header;
     made.seconds = statistics.seconds_sample;
+    std::vector<std::string> extensions;
+    if (still.exr) extensions.emplace_back(".exr");
+    if (still.png) extensions.emplace_back(".png");
+    NewFiles files(folder, stem, extensions);
     std::string written;
-    if (!exr.empty()) {
-      write_exr(exr, picture, {settings.terms, ExrPrecision::half}, made);
-      written = exr.string();
+    if (still.exr) {
+      write_exr(files.file(0), picture, {all_terms, ExrPrecision::half, terms}, made);
+      written = files.file(0).string();
     }
-    if (!png.empty()) {
-      Picture shown(picture.width, picture.height);
-      for (std::size_t i = 0; i < shown.pixels.size(); ++i) shown.pixels[i] = picture.beauty(i);
-      DisplayTransform(display).apply(shown, exposure);
-      write_displayed(png, shown, {8, is_srgb(display)}, made);
+    if (still.png) {
+      const fs::path& png = files.file(extensions.size() - 1);
+      Picture displayed(picture.width, picture.height);
+      for (std::size_t i = 0; i < displayed.pixels.size(); ++i)
+        displayed.pixels[i] = sum_of(picture, terms, i);
+      DisplayTransform(display).apply(displayed, exposure);
+      write_displayed(png, displayed, {8, is_srgb(display)}, made);
       written += (written.empty() ? "" : " and ") + png.string();
     }
-    return written + (written.empty() ? "" : " written");
+    files.keep();
+    return written + " written";
   };
-  render.start(scene, state.camera.camera(), settings, finish, on_news);
+  render.start(scene, shown.patch, state.camera.camera(), settings, finish, on_news);
 }
 
 std::uint64_t resident_bytes() {

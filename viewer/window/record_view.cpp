@@ -42,6 +42,26 @@ bool visible(const LayerPicture& layers, const RecordMark& mark, const SeenAt& a
   return at.depth <= seen + depth_slack * seen + 0.1 * reach;
 }
 
+// What each cache holds, and how often what was looked for was there, in the last frame.
+void draw_caches(const PanelInput& input) {
+  if (!input.picture || input.picture->width == 0) return;
+  const WalkEngine::Caches& caches = input.picture->caches;
+  const WalkEngine::Frame& frame = input.picture->figures;
+  const auto row = [](const char* name, const CacheSize& size, const std::string& hits) {
+    ImGui::Text("%-22s %9s %10s  %s", name, format_count(size.entries).c_str(),
+                format_bytes(size.bytes).c_str(), hits.c_str());
+  };
+  const auto share = [](double part, double whole) {
+    return whole > 0.0 ? format_fixed(100.0 * part / whole, 1) + "%" : std::string("-");
+  };
+  const auto hits = double(frame.cache_hits), misses = double(frame.cache_misses);
+  const double pixels = double(input.picture->width) * double(input.picture->height);
+  ImGui::TextUnformatted("Cache                    entries     memory  hits");
+  row("Records of indirect", caches.records, share(hits, hits + misses));
+  row("Photons of caustics", caches.photons, "");
+  row("Shading of pixels", caches.shading, share(pixels - double(frame.traced), pixels));
+}
+
 }  // namespace
 
 void draw_records(const PanelInput& input) {
@@ -52,7 +72,7 @@ void draw_records(const PanelInput& input) {
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   list->PushClipRect(ImVec2(0.0f, 0.0f), ImVec2(input.picture_width, input.picture_height));
   std::array<std::size_t, radius_limit_count> counts{};
-  std::size_t seen_count = 0, provisional = 0;
+  std::size_t seen_count = 0, drawn = 0, provisional = 0;
   const std::size_t stride = std::max<std::size_t>(1, (layers->records.size() + most - 1) / most);
   for (std::size_t i = 0; i < layers->records.size(); ++i) {
     const RecordMark& mark = layers->records[i];
@@ -63,6 +83,7 @@ void draw_records(const PanelInput& input) {
     ++counts[std::size_t(mark.limit)];
     provisional += mark.provisional ? 1 : 0;
     if (i % stride != 0) continue;
+    ++drawn;
     std::array<ImVec2, corners> outline;
     bool whole = true;
     for (int k = 0; k < corners && whole; ++k) {
@@ -90,10 +111,9 @@ void draw_records(const PanelInput& input) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
-  const WindowFigures& f = input.figures;
-  ImGui::Text("Records of indirect light: %zu, %zu in sight", layers->records.size(), seen_count);
-  ImGui::Text("%s; %.1f%% of look-ups found some", format_bytes(f.cache_bytes).c_str(),
-              100.0 * f.hit_rate);
+  draw_caches(input);
+  ImGui::Text("Records in sight: %s, drawn: %s", format_count(seen_count).c_str(),
+              format_count(drawn).c_str());
   if (provisional > 0) ImGui::Text("%zu thinly drawn ones are to be made better", provisional);
   ImGui::Text("Their reach is limited by");
   for (std::size_t k = 0; k < looks.size(); ++k) {

@@ -1,26 +1,7 @@
 #include "viewer/window/scene_edits.h"
 
-#include "viewer/scene_summary.h"
-
 namespace lumivec {
 namespace {
-
-std::shared_ptr<const LoadedScene> changed(const LoadedScene& scene, const SceneEdit& edit,
-                                           bool forward) {
-  auto copy = std::make_shared<LoadedScene>(scene);
-  const auto value = [forward](const auto& e) { return forward ? e.after : e.before; };
-  if (const auto* m = std::get_if<MaterialEdit>(&edit)) {
-    copy->scene.materials.at(m->index) = value(*m);
-  } else if (const auto* l = std::get_if<LightEdit>(&edit)) {
-    copy->scene.lights.at(l->index) = value(*l);
-  } else if (const auto* p = std::get_if<PlaceEdit>(&edit)) {
-    copy->scene.instances.at(p->index).object_to_world = value(*p);
-    copy->bounds = world_bounds(copy->scene);
-  } else if (const auto* e = std::get_if<EnvironmentEdit>(&edit)) {
-    copy->scene.environment = value(*e);
-  }
-  return copy;
-}
 
 // What the later of two edits of the same thing leaves to undo.
 bool join(SceneEdit& last, const SceneEdit& next) {
@@ -50,32 +31,44 @@ SceneChanges changes_of(const SceneEdit& edit) {
   return changes;
 }
 
-std::shared_ptr<const LoadedScene> SceneEdits::apply(const LoadedScene& scene,
-                                                     const SceneEdit& edit, std::uint64_t gesture) {
-  undone_.clear();
+void SceneEdits::set(const SceneEdit& edit, bool forward) {
+  const auto value = [forward](const auto& e) { return forward ? e.after : e.before; };
+  if (const auto* m = std::get_if<MaterialEdit>(&edit)) {
+    patch_.materials[m->index] = value(*m);
+  } else if (const auto* l = std::get_if<LightEdit>(&edit)) {
+    patch_.lights[l->index] = value(*l);
+  } else if (const auto* p = std::get_if<PlaceEdit>(&edit)) {
+    patch_.places[p->index] = value(*p);
+  } else if (const auto* e = std::get_if<EnvironmentEdit>(&edit)) {
+    patch_.environment = value(*e);
+  }
   changes_ = changes_of(edit);
+}
+
+void SceneEdits::apply(const SceneEdit& edit, std::uint64_t gesture) {
+  undone_.clear();
   const bool goes_on = gesture != 0 && gesture == gesture_ && !done_.empty();
   if (!goes_on || !join(done_.back(), edit)) done_.push_back(edit);
   gesture_ = gesture;
-  return changed(scene, edit, true);
+  set(edit, true);
 }
 
-std::shared_ptr<const LoadedScene> SceneEdits::undo(const LoadedScene& scene) {
-  if (done_.empty()) return nullptr;
+bool SceneEdits::undo() {
+  if (done_.empty()) return false;
   gesture_ = 0;
   undone_.push_back(done_.back());
   done_.pop_back();
-  changes_ = changes_of(undone_.back());
-  return changed(scene, undone_.back(), false);
+  set(undone_.back(), false);
+  return true;
 }
 
-std::shared_ptr<const LoadedScene> SceneEdits::redo(const LoadedScene& scene) {
-  if (undone_.empty()) return nullptr;
+bool SceneEdits::redo() {
+  if (undone_.empty()) return false;
   gesture_ = 0;
   done_.push_back(undone_.back());
   undone_.pop_back();
-  changes_ = changes_of(done_.back());
-  return changed(scene, done_.back(), true);
+  set(done_.back(), true);
+  return true;
 }
 
 }  // namespace lumivec

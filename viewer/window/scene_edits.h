@@ -1,14 +1,12 @@
-// Changes of lights and materials that the user tries out in the window: applied to a copy of the
-// scene, undone and redone; the file is never written.
+// Changes of lights, materials and places that the user tries out in the window: gathered in a
+// patch of the scene, undone and redone; neither the scene nor the file is ever written.
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <variant>
 #include <vector>
 
 #include "integrator/live_tracer.h"
-#include "viewer/window/loaded_scene.h"
+#include "viewer/window/scene_patch.h"
 
 namespace lumivec {
 
@@ -34,26 +32,30 @@ SceneChanges changes_of(const SceneEdit& edit);
 
 class SceneEdits {
  public:
-  // The scene that edits start from; what was done to another one is forgotten.
-  void begin() { done_.clear(), undone_.clear(), gesture_ = 0; }
+  // Of another scene: what was done to the last one is forgotten.
+  void begin() { *this = SceneEdits(); }
 
-  // The scene with the edit. Edits of the same thing that follow one another within a gesture are
-  // one to undo: they have the same number, other than 0.
-  std::shared_ptr<const LoadedScene> apply(const LoadedScene& scene, const SceneEdit& edit,
-                                           std::uint64_t gesture);
-  // Nothing to undo or redo: null.
-  std::shared_ptr<const LoadedScene> undo(const LoadedScene& scene);
-  std::shared_ptr<const LoadedScene> redo(const LoadedScene& scene);
+  // Edits of the same thing that follow one another within a gesture are one to undo: they have the
+  // same number, other than 0.
+  void apply(const SceneEdit& edit, std::uint64_t gesture);
+  // False: there is nothing to undo or redo.
+  bool undo();
+  bool redo();
 
-  // Of the last call of apply, undo or redo that returned a scene.
+  // What all of it comes to.
+  const ScenePatch& patch() const { return patch_; }
+  // Of the last call of apply, undo or redo that did anything.
   const SceneChanges& changes() const { return changes_; }
 
   std::size_t done() const { return done_.size(); }
   std::size_t undone() const { return undone_.size(); }
 
  private:
+  void set(const SceneEdit& edit, bool forward);
+
   std::vector<SceneEdit> done_, undone_;
   std::uint64_t gesture_ = 0;  // of the last edit done; 0: none goes on with it
+  ScenePatch patch_;
   SceneChanges changes_;
 };
 

@@ -159,6 +159,29 @@ void ScriptPlayer::wait_for(const ScriptLine& line) {
     waiting_ = [this] { return window_.status().doing.empty() && !window_.still_running(); };
   } else if (w[1] == "errors") {
     waiting_ = [this] { return window_.figures().shows_errors; };
+  } else if (w[1] == "wipe") {
+    waiting_ = [this] { return window_.shows_comparison(); };
+  } else if (w[1] == "records") {
+    waiting_ = [this] { return window_.shows_records(); };
+  } else if (w[1] == "picked") {
+    waiting_ = [this] { return window_.picks_answered(); };
+  } else if (w[1] == "minimised") {
+    waiting_ = [this] { return window_.iconified(); };
+  } else if (w[1] == "restored") {
+    waiting_ = [this] { return !window_.iconified() && window_.shows_current_view(); };
+  } else if (w[1] == "opened" && w.size() == 3) {
+    const double files = number(at, w[2]);
+    waiting_ = [this, files] {
+      const EngineStatus status = window_.status();
+      return double(status.opened_number) >= files && status.doing.empty() &&
+             window_.shows_current_view();
+    };
+  } else if (w[1] == "size" && w.size() == 3) {
+    const PictureSize size = parse_size(at, w[2]);
+    waiting_ = [this, size] {
+      return window_.size() == std::array<int, 2>{size.width, size.height} &&
+             window_.shows_current_view();
+    };
   } else if (w[1] == "samples" && w.size() == 3) {
     const double samples = number(at, w[2]);
     waiting_ = [this, samples] {
@@ -216,43 +239,50 @@ void ScriptPlayer::write_state(const fs::path& file) {
   const EngineStatus status = window_.status();
   int width = 0, height = 0;
   glfwGetWindowSize(window_.handle(), &width, &height);
-  nlohmann::json json = {{"camera", camera_text(s.camera.camera(), s.camera.pivot())},
-                         {"pivot", {s.camera.pivot().x, s.camera.pivot().y, s.camera.pivot().z}},
-                         {"eye", {s.camera.eye().x, s.camera.eye().y, s.camera.eye().z}},
-                         {"terms", terms_text(s.terms)},
-                         {"exposure", s.look.exposure},
-                         {"mode", int(s.look.mode)},
-                         {"channel", channel_names[std::size_t(s.look.channel)]},
-                         {"layer", layer_names[std::size_t(s.layer)]},
-                         {"wipe", s.wipe},
-                         {"wipe_place", s.wipe_place},
-                         {"error_map", s.error_map},
-                         {"shows_errors", f.shows_errors},
-                         {"paused", s.paused},
-                         {"cache_error", s.knobs.error},
-                         {"threads", s.knobs.threads},
-                         {"panels", s.settings.panels},
-                         {"help", s.show_help},
-                         {"histogram", s.show_histogram},
-                         {"inspector", s.show_inspector},
-                         {"records", s.show_records},
-                         {"files", s.show_files},
-                         {"keys", s.path_keys.size()},
-                         {"picked", s.picked ? s.picked->object : -1},
-                         {"edits", window_.edits_done()},
-                         {"message", s.message},
-                         {"error", s.message_is_error && !s.message.empty()},
-                         {"scene", status.scene ? status.scene->source.file.string() : ""},
-                         {"opened", status.opened_number},
-                         {"window", {width, height}},
-                         {"picture", {f.width, f.height}},
-                         {"pixel_size", f.pixel_size},
-                         {"samples", f.samples},
-                         {"frame_seconds", f.frame_seconds},
-                         {"frames_per_second", f.frames_per_second},
-                         {"resting", status.resting},
-                         {"first_picture_seconds", window_.first_picture_seconds()},
-                         {"resident_bytes", resident_bytes()}};
+  nlohmann::json json = {
+      {"camera", camera_text(s.camera.camera(), s.camera.pivot())},
+      {"pivot", {s.camera.pivot().x, s.camera.pivot().y, s.camera.pivot().z}},
+      {"eye", {s.camera.eye().x, s.camera.eye().y, s.camera.eye().z}},
+      {"terms", terms_text(s.terms)},
+      {"exposure", s.look.exposure},
+      {"mode", int(s.look.mode)},
+      {"channel", channel_names[std::size_t(s.look.channel)]},
+      {"layer", layer_names[std::size_t(s.layer)]},
+      {"wipe", s.wipe},
+      {"wipe_place", s.wipe_place},
+      {"error_map", s.error_map},
+      {"shows_errors", f.shows_errors},
+      {"paused", s.paused},
+      {"cache_error", s.knobs.error},
+      {"threads", s.knobs.threads},
+      {"panels", s.settings.panels},
+      {"help", s.show_help},
+      {"histogram", s.show_histogram},
+      {"inspector", s.show_inspector},
+      {"records", s.show_records},
+      {"files", s.show_files},
+      {"keys", s.path_keys.size()},
+      {"picked", s.picked ? s.picked->object : -1},
+      {"edits", window_.edits_done()},
+      {"changed", status.scene ? patch_text(window_.patch(), status.scene->scene) : ""},
+      {"message", s.message},
+      {"error", s.message_is_error && !s.message.empty()},
+      {"scene", status.scene ? status.scene->source.file.string() : ""},
+      {"opened", status.opened_number},
+      {"window", {width, height}},
+      {"picture", {f.width, f.height}},
+      {"pixel_size", f.pixel_size},
+      {"samples", f.samples},
+      {"frame_seconds", f.frame_seconds},
+      {"frames_per_second", f.frames_per_second},
+      {"resting", status.resting},
+      {"frames", window_.frames()},
+      {"seconds", glfwGetTime()},
+      {"own_frame_seconds", window_.own_seconds()},
+      {"display_rate", window_.display_rate()},
+      {"interface_scale", window_.scale().interface},
+      {"first_picture_seconds", window_.first_picture_seconds()},
+      {"resident_bytes", resident_bytes()}};
   write_text_atomically(file, json_text(json));
 }
 

@@ -22,6 +22,8 @@ class ScriptPlayer {
   // The next step, if its time has come; false once all is done. Throws CommandError where a check
   // fails or something that is waited for does not happen.
   bool step();
+  // Whether the next step waits for something that frames alone do not bring about.
+  bool waiting() const { return waiting_ != nullptr; }
 
  private:
   void begin(const ScriptLine& line);

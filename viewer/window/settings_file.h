@@ -8,7 +8,7 @@
 namespace lumivec {
 
 struct WindowSettings {
-  int width = 0, height = 0;  // of the window, screen units; 0: as the scene asks
+  int width = 0, height = 0;  // of the window, on a usual display; 0: as the scene asks
   bool panels = true;
   float interface_scale = 0.0f;               // of text; 0: as the screen asks
   int pixel_size = 0;                         // screen pixels a side; 0: as fast as needed

@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <utility>
 
@@ -12,15 +13,26 @@ namespace {
 
 constexpr float panel_letters = 42.0f;  // widths of text that the panel is wide
 
+// Told apart by brightness too, for eyes that do not tell all hues apart.
+ImU32 term_color(int term, bool shown) {
+  constexpr std::array<std::array<int, 3>, term_count> colors = {
+      {{250, 225, 110}, {90, 170, 240}, {235, 130, 40}, {60, 140, 75}, {190, 110, 200}}};
+  const auto& c = colors[std::size_t(term)];
+  return IM_COL32(c[0], c[1], c[2], shown ? 255 : 70);
+}
+
 bool choice(const char* label, const std::vector<std::string>& names, std::string& chosen) {
   bool changed = false;
   if (!ImGui::BeginCombo(label, chosen.c_str())) return false;
-  for (const std::string& name : names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
     const bool is_chosen = name == chosen;
+    ImGui::PushID(int(i));
     if (ImGui::Selectable(name.empty() ? "of the view" : name.c_str(), is_chosen) && !is_chosen) {
       chosen = name;
       changed = true;
     }
+    ImGui::PopID();
   }
   ImGui::EndCombo();
   return changed;
@@ -33,8 +45,30 @@ void take_when_let_go(std::optional<Value>& pending, Value& knob) {
   knob = *std::exchange(pending, std::nullopt);
 }
 
+// What each term adds to the light of the picture: one bar of five parts. Those that are switched
+// off are dim; pointing at one tells which it is.
+void draw_stack(const WindowState& state, const PanelInput& input) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float height = ImGui::GetTextLineHeight() + 6.0f;
+  ImGui::Dummy(ImVec2(width, height));
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(from, ImVec2(from.x + width, from.y + height), IM_COL32(10, 10, 10, 255));
+  float left = from.x;
+  for (std::size_t t = 0; t < std::size_t(term_count); ++t) {
+    const float right = left + width * float(input.shares[t]);
+    const bool shown = (state.terms >> t & 1u) != 0;
+    const ImVec2 low(left, from.y), high(right, from.y + height);
+    list->AddRectFilled(low, high, term_color(int(t), shown));
+    if (right > left && ImGui::IsMouseHoveringRect(low, high))
+      ImGui::SetTooltip("%s %.1f%%", term_names[t].data(), 100.0 * input.shares[t]);
+    left = right;
+  }
+}
+
 void draw_light(WindowState& state, const PanelInput& input) {
   if (!ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  draw_stack(state, input);
   for (int t = 0; t < term_count; ++t) {
     ImGui::PushID(t);
     bool shown = (state.terms >> unsigned(t) & 1u) != 0;
@@ -47,7 +81,9 @@ void draw_light(WindowState& state, const PanelInput& input) {
     const double share = input.shares[std::size_t(t)];
     char text[16];
     std::snprintf(text, sizeof(text), "%.1f%%", 100.0 * share);
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, term_color(t, true));
     ImGui::ProgressBar(float(share), ImVec2(-1.0f, ImGui::GetTextLineHeight() + 4.0f), text);
+    ImGui::PopStyleColor();
     ImGui::PopID();
   }
   ImGui::Checkbox("Wipe with path tracing (V)", &state.wipe);
@@ -100,10 +136,12 @@ void draw_camera(WindowState& state, const PanelInput& input) {
     const auto current = std::min(std::size_t(state.file_camera), cameras.size() - 1);
     if (ImGui::BeginCombo("Of the file", name(current).c_str())) {
       for (std::size_t i = 0; i < cameras.size(); ++i) {
+        ImGui::PushID(int(i));  // files may give several the same name
         if (ImGui::Selectable(name(i).c_str(), i == current)) {
           state.file_camera = int(i);
           state.camera.take(cameras[i], state.camera.pivot());
         }
+        ImGui::PopID();
       }
       ImGui::EndCombo();
     }

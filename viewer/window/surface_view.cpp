@@ -53,13 +53,20 @@ Picture error_picture(const std::vector<Color>& picture, const std::vector<Color
                       int width, int height) {
   assert(picture.size() == reference.size());
   double mean = 0.0;
-  for (const Color& c : reference) mean += double(luminance(c));
-  mean /= std::max<std::size_t>(reference.size(), 1);
+  std::size_t finite = 0;
+  for (const Color& c : reference) {
+    const float bright = luminance(c);
+    if (!std::isfinite(bright)) continue;
+    mean += double(bright);
+    ++finite;
+  }
+  mean /= double(std::max<std::size_t>(finite, 1));
   const auto floor = float(std::max(mean * 1e-3, 1e-30));
   std::vector<float> values(picture.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float expected = luminance(reference[i]);
     const float error = std::abs(luminance(picture[i]) - expected) / (expected + floor);
+    if (!std::isfinite(expected)) continue;  // nothing is known there
     values[i] = std::isfinite(error) ? error / most_shown_error : 1.0f;
   }
   return heat_picture(values, width, height);

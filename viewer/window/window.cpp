@@ -33,6 +33,27 @@ PictureSize first_size(const WindowOptions& options, const WindowSettings& setti
   return {usual_width, usual_height};
 }
 
+WindowScale scale_of(GLFWwindow* window) {
+  float content = 1.0f, content_y = 1.0f;
+  glfwGetWindowContentScale(window, &content, &content_y);
+  int width = 0, dots = 0, unused = 0;
+  glfwGetWindowSize(window, &width, &unused);
+  glfwGetFramebufferSize(window, &dots, &unused);
+  return window_scale(content, width, dots);
+}
+
+// A window may be moved from one display to another: none is to be too fast for its frames.
+double fastest_display() {
+  constexpr double usual = 60.0;  // where a display does not say
+  int count = 0, fastest = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  for (int i = 0; i < count; ++i) {
+    const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+    if (mode) fastest = std::max(fastest, mode->refreshRate);
+  }
+  return fastest > 0 ? double(fastest) : usual;
+}
+
 fs::path settings_file(const WindowOptions& options) {
   return options.remember ? settings_place() : fs::path();
 }
@@ -51,6 +72,7 @@ Window::Window(const WindowOptions& options)
   GLFWwindow* window = gl_.handle();
   glfwSetWindowSizeLimits(window, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwSwapInterval(1);
+  display_rate_ = fastest_display();
 
   DisplayOptions display = options.display;
   try {
@@ -92,23 +114,24 @@ Window::Window(const WindowOptions& options)
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::StyleColorsDark();
-  float scale_x = 1.0f, scale_y = 1.0f;
-  glfwGetWindowContentScale(window, &scale_x, &scale_y);
-  const float scale = state_.settings.interface_scale > 0.0f ? state_.settings.interface_scale
-                                                             : std::max(1.0f, scale_x);
+  scale_ = scale_of(window);
+  const float scale =
+      state_.settings.interface_scale > 0.0f ? state_.settings.interface_scale : scale_.interface;
+  // Letters are drawn in dots, so that they are sharp, and laid out in window units.
   ImFontConfig font;
-  font.SizePixels = std::round(letter_height * scale);
-  text_size_ = font.SizePixels;
+  font.SizePixels = std::round(letter_height * scale * scale_.density);
+  text_size_ = font.SizePixels / scale_.density;
   ImGui::GetIO().Fonts->AddFontDefault(&font);
+  ImGui::GetIO().FontGlobalScale = 1.0f / scale_.density;
   ImGui::GetStyle().ScaleAllSizes(scale);
   // They call what was there before: what is above.
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
 
   if (!options.script.empty()) script_ = std::make_unique<ScriptPlayer>(options.script, *this);
-  if (options.scene) {
-    opening_ = options.scene->file;
-    engine_.open(*options.scene);
+  if (!options.scene.file.empty()) {
+    opening_ = options.scene.file;
+    engine_.open(options.scene);
   }
 }
 
@@ -123,9 +146,13 @@ Window::~Window() {
 
 int Window::run() {
   const InterruptGuard interrupt;
+  loop_begun_ = thread_seconds();
   while (!glfwWindowShouldClose(gl_.handle()) && !state_.quit && !interrupt.requested()) {
     const bool busy = script_ || navigator_.flying() || path_begun_ >= 0.0;
-    if (busy) {
+    if (script_ && script_->waiting() && !navigator_.flying() && path_begun_ < 0.0) {
+      constexpr double short_wait = 0.02;  // seconds; the engine has the processor meanwhile
+      glfwWaitEventsTimeout(short_wait);
+    } else if (busy) {
       glfwPollEvents();
     } else {
       glfwWaitEventsTimeout(longest_wait);
@@ -143,14 +170,23 @@ int Window::run() {
       if (busy) glfwWaitEventsTimeout(0.01);  // nothing is shown that would take its time
       continue;
     }
-    upload_pictures();
+    in_driver([&] { upload_pictures(); });
     make_histogram();
     draw();
-    glfwSwapBuffers(gl_.handle());
+    in_driver([&] { glfwSwapBuffers(gl_.handle()); });
+    ++frames_;
+    // Drivers may pass over what glfwSwapInterval asks. A script goes on as fast as it can, apart
+    // from what it has flying by the clock.
+    if (!script_ || navigator_.flying() || path_begun_ >= 0.0) pacer_.wait(display_rate_);
   }
   if (!settings_file_.empty()) {
-    if (!glfwGetWindowMonitor(gl_.handle()))
-      glfwGetWindowSize(gl_.handle(), &state_.settings.width, &state_.settings.height);
+    if (!glfwGetWindowMonitor(gl_.handle())) {
+      // As GLFW takes it for a window to be: it makes it larger by the display's scale.
+      int width = 0, height = 0;
+      glfwGetWindowSize(gl_.handle(), &width, &height);
+      state_.settings.width = int(std::lround(float(width) / scale_.interface));
+      state_.settings.height = int(std::lround(float(height) / scale_.interface));
+    }
     if (options_.display.config.empty()) {
       state_.settings.display = display_->names().chosen.display;
       state_.settings.view = display_->names().chosen.view;
@@ -213,9 +249,12 @@ void Window::ask_engine() {
 
 bool Window::shows_current_view() const {
   const EnginePicture& picture = engine_.picture();
-  return picture.scene == status_.scene_number && picture.width > 0 &&
+  // A scene that has been opened since is yet to be followed.
+  return engine_.status().scene_number == status_.scene_number &&
+         picture.scene == status_.scene_number && picture.width > 0 &&
          picture.width == asked_.width && picture.height == asked_.height &&
-         picture.terms == state_.terms && same_view(picture.camera, state_.camera.camera());
+         picture.terms == state_.terms && picture.change >= change_ &&
+         picture.knobs == state_.knobs && same_view(picture.camera, state_.camera.camera());
 }
 
 int run_window(const WindowOptions& options) {

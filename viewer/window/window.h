@@ -12,19 +12,23 @@
 #include "viewer/window/background_render.h"
 #include "viewer/window/engine_thread.h"
 #include "viewer/window/file_watch.h"
+#include "viewer/window/frame_pacer.h"
 #include "viewer/window/gl_window.h"
 #include "viewer/window/gpu_display.h"
 #include "viewer/window/key_table.h"
 #include "viewer/window/navigator.h"
 #include "viewer/window/panels.h"
+#include "viewer/window/shown_settings.h"
+#include "viewer/window/thread_time.h"
 #include "viewer/window/window_app.h"
+#include "viewer/window/window_scale.h"
 #include "viewer/window/window_state.h"
 
 namespace lumivec {
 
 class ScriptPlayer;
 
-constexpr int usual_width = 1120, usual_height = 720;  // of a first window, screen units
+constexpr int usual_width = 1120, usual_height = 720;  // of a first window, on a usual display
 
 class Window {
  public:
@@ -43,8 +47,23 @@ class Window {
   const EnginePicture& picture() const { return engine_.picture(); }
   bool still_running() const { return still_.state().running; }
   bool shows_current_view() const;
+  bool shows_comparison() const { return shows_current_view() && !picture().compared.empty(); }
+  bool shows_records() const {
+    return engine_.layers().scene == status_.scene_number && !engine_.layers().records.empty();
+  }
+  bool picks_answered() const { return pick_seen_ == picks_; }
+  bool iconified() const { return iconified_; }
+  std::array<int, 2> size() const { return {window_width_, window_height_}; }
   double first_picture_seconds() const { return first_picture_; }
+  std::uint64_t frames() const { return frames_; }
+  // Processor time a frame of this thread, without what OpenGL's driver takes of it.
+  double own_seconds() const {
+    return frames_ > 0 ? (thread_seconds() - loop_begun_ - driver_seconds_) / double(frames_) : 0.0;
+  }
+  double display_rate() const { return display_rate_; }
+  const WindowScale& scale() const { return scale_; }
   std::size_t edits_done() const { return edits_.done(); }
+  const ScenePatch& patch() const { return edits_.patch(); }
   // Where the mouse is for the panels, instead of where it really is; and which buttons are down.
   struct ScriptMouse {
     double x = 0.0, y = 0.0;
@@ -71,7 +90,7 @@ class Window {
   void perform_view(const KeyAction& action);
   void perform_picture(const KeyAction& action);
   void perform_wishes();
-  void apply_edit(const std::shared_ptr<const LoadedScene>& scene);
+  void send_edits();
 
   void open(const std::filesystem::path& file, bool keep_camera);
   void follow_engine();
@@ -93,8 +112,16 @@ class Window {
   void draw_interface();
   void write_shot();
 
+  template <class Calls>
+  void in_driver(const Calls& calls) {
+    const double begun = thread_seconds();
+    calls();
+    driver_seconds_ += thread_seconds() - begun;
+  }
+
   void say(const std::string& message, bool is_error = false);
   void set_display(const DisplayOptions& display);
+  ShownPicture shown_picture(const PictureSize& size) const;  // there is a scene
   void write_path();
   void set_full_screen(bool full);
   double now() const { return glfwGetTime(); }
@@ -115,11 +142,12 @@ class Window {
   // What is known of the engine.
   EngineStatus status_;
   std::uint64_t scene_seen_ = 0, opened_seen_ = 0, error_seen_ = 0;
-  int stills_seen_ = 0, references_seen_ = 0;
-  std::shared_ptr<const LoadedScene> edited_;  // that the engine has not taken over yet
-  PictureSize asked_;                          // of the engine
+  int stills_seen_ = 0;
+  std::uint64_t change_ = 0;  // the last that the engine was sent
+  PictureSize asked_;         // of the engine
   std::optional<std::filesystem::path> opening_;
   bool pivot_pending_ = false;
+  bool metering_ = false;  // the next picture sets the exposure
   std::uint64_t picks_ = 0, pick_seen_ = 0;
   PickQuestion pick_;
 
@@ -128,7 +156,8 @@ class Window {
   int canvas_width_ = 1, canvas_height_ = 1;
   float picture_width_ = 1.0f, picture_height_ = 1.0f;
   Viewport viewport_;
-  float text_size_ = 13.0f;
+  WindowScale scale_;
+  float text_size_ = 13.0f;  // window units
   bool iconified_ = false;
   std::array<int, 4> windowed_{};  // place and size before full screen
 
@@ -154,10 +183,11 @@ class Window {
     std::uint32_t terms = 0;
     std::uint64_t scene = 0;
     int width = 0, height = 0;
+    int render = 0;  // BackgroundRender's number; 0: none has been started
+    bool ready = false, failed = false;
   };
   std::vector<Color> reference_pixels_;  // of the render's thread until that has ended
   Reference reference_;
-  bool reference_ready_ = false;
 
   double mouse_x_ = 0.0, mouse_y_ = 0.0;
   double click_at_ = -1.0, click_x_ = 0.0, click_y_ = 0.0;
@@ -166,6 +196,10 @@ class Window {
   double flown_at_ = -1.0;
   double path_begun_ = -1.0;
   double watched_at_ = 0.0;
+  FramePacer pacer_;
+  double display_rate_ = 60.0;                      // pictures a second, of the fastest display
+  std::uint64_t frames_ = 0;                        // that the window has shown
+  double loop_begun_ = 0.0, driver_seconds_ = 0.0;  // thread_seconds
 };
 
 }  // namespace lumivec

@@ -219,7 +219,7 @@ void Window::perform_view(const KeyAction& action) {
   };
   switch (action.action) {
     case Action::frame_all:
-      if (scene) state_.camera.frame(scene->bounds, double(picture_width_ / picture_height_));
+      if (scene) state_.camera.frame(status_.bounds, double(picture_width_ / picture_height_));
       break;
     case Action::home:
       show_camera(0);

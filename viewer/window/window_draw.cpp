@@ -40,12 +40,14 @@ void Window::layout() {
 }
 
 void Window::draw() {
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glDisable(GL_SCISSOR_TEST);
-  glViewport(0, 0, canvas_width_, canvas_height_);
-  glClearColor(background.x, background.y, background.z, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT);
-  draw_picture();
+  in_driver([&] {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDisable(GL_SCISSOR_TEST);
+    glViewport(0, 0, canvas_width_, canvas_height_);
+    glClearColor(background.x, background.y, background.z, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    draw_picture();
+  });
   after_picture();
   draw_interface();
   if (!shot_file.empty()) write_shot();
@@ -73,8 +75,8 @@ void Window::after_picture() {
     }
     try {
       const std::filesystem::path file =
-          write_screenshot(options_.folder, read_back(viewport_), *status_.scene, state_,
-                           display_->names().chosen, figures_);
+          write_screenshot(options_.folder, read_back(viewport_),
+                           shown_picture({viewport_.width, viewport_.height}), figures_);
       say(file.string() + " written");
     } catch (const CommandError& error) {
       say(error.what(), true);
@@ -119,6 +121,8 @@ void Window::draw_interface() {
 
   PanelInput input;
   input.scene = status_.scene.get();
+  input.patch = &edits_.patch();
+  input.bounds = status_.bounds;
   input.picture = &engine_.picture();
   input.layers = engine_.layers().scene == status_.scene_number ? &engine_.layers() : nullptr;
   input.histogram = &histogram_;
@@ -148,8 +152,11 @@ void Window::draw_interface() {
                   IM_COL32(255, 200, 80, 255), "path  |");
   }
   ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (edit && status_.scene) apply_edit(edits_.apply(*status_.scene, edit->edit, edit->gesture));
+  in_driver([] { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); });
+  if (edit && status_.scene) {
+    edits_.apply(edit->edit, edit->gesture);
+    send_edits();
+  }
 }
 
 void Window::write_shot() {

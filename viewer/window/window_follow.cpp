@@ -21,10 +21,8 @@ constexpr double meter_share = 0.1;  // of what is known, a frame's measurement 
 }  // namespace
 
 void Window::open(const fs::path& file, bool keep_camera) {
-  SceneSource source;
-  if (status_.scene) source = status_.scene->source;
-  if (options_.scene && !status_.scene) source = *options_.scene;
-  if (file != source.file) {
+  SceneSource source = status_.scene ? status_.scene->source : options_.scene;
+  if (file != source.file && !source.file.empty()) {
     // What was said of the other file alone: which of its scenes, that it is trusted, and its pose.
     source.load.scene.clear();
     source.load.allow_outside_files = false;
@@ -37,12 +35,10 @@ void Window::open(const fs::path& file, bool keep_camera) {
 
 void Window::follow_engine() {
   status_ = engine_.status();
-  if (status_.scene == edited_ || status_.opened_number != opened_seen_) edited_.reset();
-  if (edited_) status_.scene = edited_;
   if (status_.error_number != error_seen_) {
     error_seen_ = status_.error_number;
     // The window was opened for this scene alone.
-    if (!status_.scene && options_.scene && opening_ == options_.scene->file)
+    if (!status_.scene && !options_.scene.file.empty() && opening_ == options_.scene.file)
       throw CommandError(status_.error);
     say(status_.error, true);
   }
@@ -56,15 +52,17 @@ void Window::follow_engine() {
 
 void Window::take_scene(const EngineStatus& status) {
   const LoadedScene& scene = *status.scene;
-  reference_ready_ = false;
   reference_render_.cancel();
+  reference_ = {};
   if (status.opened_number == opened_seen_) return;  // the same file, changed by the user
   const bool first = opened_seen_ == 0;
   opened_seen_ = status.opened_number;
   edits_.begin();
   state_.picked.reset();
   navigator_.set_scale(0.5 * scene.bounds.size().length());
-  watch_.watch(files_of_scene(scene.source.file));
+  std::vector<fs::path> files = files_of_scene(scene.source.file);
+  if (scene.source.environment.is_file()) files.push_back(scene.source.environment.name);
+  watch_.watch(std::move(files));
   remember_file(state_.settings, scene.source.file);
   glfwSetWindowTitle(gl_.handle(), (scene.source.file.filename().string() + " - lumivec").c_str());
   if (state_.message_is_error) state_.message.clear();
@@ -76,14 +74,16 @@ void Window::take_scene(const EngineStatus& status) {
     }
     state_.camera.take(camera, scene.bounds.isEmpty() ? V3d(0.0) : scene.bounds.center());
     pivot_pending_ = true;
+    metering_ = options_.automatic_exposure;
     if (first && !options_.size && state_.settings.width == 0) {
       // As wide as the camera asks.
       const PictureSize wanted = size_for(camera);
       const double aspect = std::clamp(double(wanted.width) / wanted.height, 0.5, 2.4);
       const float bar = status_height(text_size_);
-      const auto width = int((usual_height - double(bar)) * aspect) +
-                         (state_.settings.panels ? int(panel_width(usual_width, text_size_)) : 0);
-      glfwSetWindowSize(gl_.handle(), width, usual_height);
+      const double height = usual_height * double(scale_.interface);
+      const auto panel = double(panel_width(usual_width * scale_.interface, text_size_));
+      const double width = (height - double(bar)) * aspect + (state_.settings.panels ? panel : 0.0);
+      glfwSetWindowSize(gl_.handle(), int(width), int(height));
     }
   } else {
     state_.file_camera = std::min(state_.file_camera, int(scene.scene.cameras.size()) - 1);
@@ -126,8 +126,10 @@ void Window::take_picture() {
   if (pivot_pending_ && same_view(picture.camera, state_.camera.camera())) {
     state_.camera.set_pivot(picture.pivot);
     pivot_pending_ = false;
-    if (options_.automatic_exposure && opened_seen_ == 1)
-      state_.look.exposure = automatic_exposure(picture.pixels);
+  }
+  if (metering_ && same_view(picture.camera, state_.camera.camera())) {
+    metering_ = false;
+    state_.look.exposure = automatic_exposure(picture.pixels);
   }
   if (picture.pick.number == picks_ && picture.pick.number != pick_seen_) {
     pick_seen_ = picture.pick.number;
@@ -155,7 +157,7 @@ void Window::upload_pictures() {
   const LayerPicture& layers = engine_.layers();
   if (!status_.scene || picture.scene != status_.scene_number) return;
   const bool light = state_.layer == Layer::light;
-  const bool errors = light && state_.error_map && reference_ready_ &&
+  const bool errors = light && state_.error_map && reference_.ready &&
                       reference_.width == picture.width && reference_.height == picture.height &&
                       reference_.terms == picture.terms &&
                       same_view(reference_.camera, picture.camera);
@@ -197,9 +199,11 @@ void Window::follow_renders() {
     say(still.said, still.failed);
   }
   const BackgroundRender::State reference = reference_render_.state();
-  if (reference.ended != references_seen_) {
-    references_seen_ = reference.ended;
-    reference_ready_ = !reference.failed;
+  // One for an earlier view may have ended since that was given up.
+  if (reference.ended == reference_.render && reference_.render != 0 && !reference_.ready &&
+      !reference_.failed) {
+    reference_.ready = !reference.failed;
+    reference_.failed = reference.failed;
     if (reference.failed) say(reference.said, true);
   }
 }
@@ -207,7 +211,8 @@ void Window::follow_renders() {
 // The view rests: what it should look like is path-traced meanwhile.
 void Window::render_reference() {
   if (!state_.error_map || !status_.scene) {
-    reference_render_.cancel();
+    if (reference_.render != 0) reference_render_.cancel();
+    reference_ = {};  // one that failed is tried again when it is asked for again
     return;
   }
   const EnginePicture& picture = engine_.picture();
@@ -216,11 +221,10 @@ void Window::render_reference() {
   const bool same = reference_.scene == status_.scene_number && reference_.terms == state_.terms &&
                     reference_.width == picture.width && reference_.height == picture.height &&
                     same_view(reference_.camera, camera);
-  if (same && (reference_ready_ || reference_render_.state().running)) return;
+  if (same && reference_.render != 0) return;  // it goes on, is there, or cannot be made
   if (!same_view(picture.camera, camera) || now() - moved_at_ < reference_delay) return;
   reference_render_.cancel();
-  reference_ready_ = false;
-  reference_ = {camera, state_.terms, status_.scene_number, picture.width, picture.height};
+  reference_ = {};
   RenderSettings settings;
   settings.width = picture.width;
   settings.height = picture.height;
@@ -228,8 +232,8 @@ void Window::render_reference() {
   settings.terms = state_.terms;
   settings.threads = state_.knobs.threads;
   settings.seed = state_.knobs.seed ^ reference_seed;
-  reference_render_.start(
-      status_.scene, camera, settings,
+  const int number = reference_render_.start(
+      status_.scene, edits_.patch(), camera, settings,
       [this](const Framebuffer& made, const RenderStatistics&) {
         reference_pixels_.resize(made.pixel_count());
         for (std::size_t i = 0; i < reference_pixels_.size(); ++i)
@@ -237,6 +241,8 @@ void Window::render_reference() {
         return std::string();
       },
       [] { glfwPostEmptyEvent(); });
+  reference_ = {camera, state_.terms, status_.scene_number, picture.width, picture.height, number,
+                false,  false};
 }
 
 void Window::follow_files() {

@@ -10,6 +10,7 @@
 #include "viewer/option_values.h"
 #include "viewer/window/engine_thread.h"
 #include "viewer/window/gpu_display.h"
+#include "viewer/window/object_place.h"
 #include "viewer/window/orbit_camera.h"
 #include "viewer/window/settings_file.h"
 #include "viewer/window/surface_view.h"
@@ -60,6 +61,7 @@ struct WindowState {
   bool show_records = false;
 
   std::optional<PickAnswer> picked;  // by the last double click
+  ObjectPlace picked_place;          // of its object, as the edit panel has it
   std::uint64_t gesture = 0;         // counts what panels' items are held for
   std::uint32_t held_item = 0;       // Dear ImGui's name of it; 0: none
   StillWish still;

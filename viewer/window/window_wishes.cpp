@@ -2,17 +2,17 @@
 #include "viewer/atomic_file.h"
 #include "viewer/camera_text.h"
 #include "viewer/errors.h"
+#include "viewer/text_format.h"
 #include "viewer/window/camera_keys.h"
+#include "viewer/window/new_files.h"
 #include "viewer/window/picture_files.h"
 #include "viewer/window/script_player.h"
 #include "viewer/window/window.h"
 
 namespace lumivec {
 
-void Window::apply_edit(const std::shared_ptr<const LoadedScene>& scene) {
-  if (!scene) return;
-  edited_ = status_.scene = scene;  // what the next edit starts from
-  engine_.replace(scene, edits_.changes(), opened_seen_);
+void Window::send_edits() {
+  change_ = engine_.change(edits_.patch(), edits_.changes(), opened_seen_);
 }
 
 void Window::perform_wishes() {
@@ -23,8 +23,8 @@ void Window::perform_wishes() {
     if (wishes.open) open(*wishes.open, false);
     if (wishes.reload && status_.scene) open(status_.scene->source.file, true);
     if (wishes.display) display_->set_transform(*wishes.display);
-    if (wishes.undo && status_.scene) apply_edit(edits_.undo(*status_.scene));
-    if (wishes.redo && status_.scene) apply_edit(edits_.redo(*status_.scene));
+    if (wishes.undo && edits_.undo()) send_edits();
+    if (wishes.redo && edits_.redo()) send_edits();
     if (wishes.copy_view) {
       const std::string text = camera_text(state_.camera.camera(), state_.camera.pivot());
       glfwSetClipboardString(gl_.handle(), text.c_str());
@@ -48,9 +48,14 @@ void Window::perform_wishes() {
     if (wishes.export_still && status_.scene) {
       if (!state_.still.exr && !state_.still.png)
         throw UsageError("Choose OpenEXR or PNG for the still");
+      const BackgroundRender::State running = still_.state();
+      if (running.running) {
+        throw UsageError("A still is being rendered, " + format_fixed(100.0 * running.fraction, 0) +
+                         "% of it; wait for it, or stop it in the panel");
+      }
       const PictureSize window = {viewport_.width, viewport_.height};
-      start_still(still_, status_.scene, state_, display_->names().chosen, options_.folder,
-                  state_.still.size_follows_window ? window : state_.still.size,
+      const PictureSize size = state_.still.size_follows_window ? window : state_.still.size;
+      start_still(still_, status_.scene, shown_picture(size), options_.folder,
                   [] { glfwPostEmptyEvent(); });
       say("Rendering a still");
     }
@@ -59,13 +64,18 @@ void Window::perform_wishes() {
   }
 }
 
+ShownPicture Window::shown_picture(const PictureSize& size) const {
+  return {*status_.scene, edits_.patch(), state_, display_->names().chosen, size};
+}
+
 void Window::write_path() {
   if (state_.path_keys.empty()) throw UsageError("A camera path needs a view; K adds one");
   const std::string stem =
       status_.scene ? status_.scene->source.file.stem().string() : std::string("camera");
-  const std::filesystem::path file = free_name(options_.folder, stem + "_path", ".json");
-  write_text_atomically(file, camera_keys_text(state_.path_keys));
-  say(file.string() + " written");
+  NewFiles files(options_.folder, stem + "_path", {".json"});
+  write_text_atomically(files.file(0), camera_keys_text(state_.path_keys));
+  files.keep();
+  say(files.file(0).string() + " written");
 }
 
 void Window::set_full_screen(bool full) {
