@@ -131,6 +131,24 @@ TEST(PovPattern, ColorsAreBlendedAsWrittenAndThenMadeLinear) {
   EXPECT_NEAR(at(encoded, 2.1, 0.1).x, std::pow(value, 2.2), 0.02);
 }
 
+TEST(PovPattern, BricksHaveMortarAtTheirUpperEndsAndEachSecondRowShifted) {
+  const Framebuffer picture =
+      see("plane { -z, 0 pigment { brick rgb <0.8, 0.1, 0.1> rgb <0.1, 0.8, 0.1> } }");
+  expect_color(at(picture, -0.3, 1.1), red, "before a brick");
+  expect_color(at(picture, 0.4, 1.1), green, "in a brick");
+  expect_color(at(picture, 1.1, -0.3), red, "below a row");
+  expect_color(at(picture, -0.3, 3.4), green, "in a shifted brick");
+  expect_color(at(picture, 3.7, 3.4), red, "before a shifted brick");
+}
+
+TEST(PovPattern, GradientsRepeatBelowZeroAsAbove) {
+  const Framebuffer picture =
+      see("plane { -z, 0 pigment { gradient x color_map { [0 rgb 0] [1 rgb 1] } scale 2 } }");
+  const double value = 0.3125;  // 0.625 of a period of 2, in the middle of a pixel
+  for (const double x : {-3.4, -1.4, 0.6, 2.6})
+    EXPECT_NEAR(at(picture, x, 0.1).x, value, 0.03) << x;
+}
+
 TEST(PovPattern, EmissionFollowsThePattern) {
   const Framebuffer picture =
       see("plane { -z, 0 pigment { " + checker + " } finish { diffuse 0 emission 1 } }");

@@ -64,7 +64,8 @@ double rough_noise(const V3d& p) {
   double sum = 0.0, frequency = 1.0;
   for (int i = 0; i < 6; ++i, frequency *= 2.0)
     sum += std::abs(0.5 - noise(p * (4.0 * frequency))) / frequency;
-  return std::min(sum, 1.0);
+  constexpr double contrast = 2.0;  // to the mean brightness that POV-Ray's granite has
+  return std::min(contrast * sum, 1.0);
 }
 
 double cell(const PatternPoint& p, int axis) {
@@ -85,7 +86,7 @@ double parameter(const Pattern& pattern, K name, double usual) {
 }
 
 // 0: mortar, 1: brick. Mortar lies at the upper ends of each brick; each second row is shifted by
-// half a brick along x, and by half along z.
+// half a brick along x.
 double brick(const Pattern& pattern, const PatternPoint& p) {
   const V3d size = pattern.vector == V3d(0.0) ? V3d(8.0, 3.0, 4.5) : pattern.vector;
   const double mortar = parameter(pattern, K::mortar_, 0.5);
@@ -95,10 +96,7 @@ double brick(const Pattern& pattern, const PatternPoint& p) {
     at[i] = (p.at[i] + std::max(1e-9, std::abs(p.spread[i]))) / size[i];
   }
   const bool odd_row = fraction(std::floor(at.y) / 2.0) != 0.0;
-  if (odd_row) {
-    at.x += 0.5;
-    at.z += 0.5;
-  }
+  if (odd_row) at.x += 0.5;
   for (int i = 0; i < 3; ++i) {
     if ((1.0 - fraction(at[i])) * std::abs(size[i]) <= mortar) return 0.0;
   }
