@@ -107,7 +107,8 @@ void Lights::add_instance(int instance) {
 
 void Lights::add_mesh(int instance, const Material& material) {
   const Mesh& mesh = *scene_.instances()[std::size_t(instance)].mesh;
-  const bool varying = material.emission_map.image >= 0 || material.alpha_mode != AlphaMode::opaque;
+  const bool varying = material.emission_map.image >= 0 || material.pattern >= 0 ||
+                       material.alpha_mode != AlphaMode::opaque;
   Emitter emitter;
   emitter.instance = instance;
   emitter.two_sided = material.double_sided;
@@ -161,6 +162,7 @@ void Lights::add_mesh(int instance, const Material& material) {
       for (const auto& probe : texture_probes) {
         point.u = probe[0];
         point.v = probe[1];
+        point.position = emitter.origin + emitter.edge_u * probe[0] + emitter.edge_v * probe[1];
         sum += scene_.emission(point) * scene_.opacity(point);
       }
       emitter.emission = sum * (1.0f / static_cast<float>(std::size(texture_probes))) +
@@ -177,7 +179,8 @@ void Lights::add_sphere(int instance, const Material& material) {
   Emitter emitter;
   emitter.instance = instance;
   emitter.two_sided = material.double_sided;
-  emitter.varying = material.emission_map.image >= 0 || material.alpha_mode != AlphaMode::opaque;
+  emitter.varying = material.emission_map.image >= 0 || material.pattern >= 0 ||
+                    material.alpha_mode != AlphaMode::opaque;
   emitter.emission = material.emission;
   LightBounds bounds;
   V3f extent;

@@ -166,6 +166,12 @@ Color unit_range(const Color& c) {
 
 }  // namespace
 
+PatternedSurface TracedScene::patterned(const SurfacePoint& point) const {
+  const auto index = std::size_t(point.material->pattern);
+  return scene_.patterns[index]->at(V3d(point.position) + origin_, V3d(point.geometric_normal),
+                                    point.error);
+}
+
 float TracedScene::opacity(const SurfacePoint& point) const {
   const Material& m = *point.material;
   if (m.alpha_mode == AlphaMode::opaque) return 1.0f;
@@ -179,6 +185,7 @@ Color TracedScene::emission(const SurfacePoint& point) const {
   if (m.unlit)
     return m.base_color * rgb(texture(*this, point, m.base_color_map)) * rgb(vertex_color(point));
   if (m.emission == Color(0.0f) || !(point.front || m.double_sided)) return Color(0.0f);
+  if (m.pattern >= 0) return patterned(point).emission;
   return m.emission * rgb(texture(*this, point, m.emission_map));
 }
 
@@ -248,12 +255,21 @@ SurfaceParameters TracedScene::appearance(const SurfacePoint& point) const {
   p.clearcoat = std::clamp(m.clearcoat * texture(*this, point, m.clearcoat_map).x, 0.0f, 1.0f);
   p.clearcoat_roughness = std::clamp(
       m.clearcoat_roughness * texture(*this, point, m.clearcoat_roughness_map).y, 0.0f, 1.0f);
+  if (m.pattern >= 0) {
+    const PatternedSurface s = patterned(point);
+    p.base_color = unit_range(s.base_color);
+    p.roughness = std::clamp(s.roughness, 0.0f, 1.0f);
+    p.specular = std::clamp(s.specular, 0.0f, 1.0f);
+    p.specular_color = s.specular_color;
+    p.transmission = m.transmission > 0.0f ? std::clamp(s.transmission, 0.0f, 1.0f) : 0.0f;
+  }
   return p;
 }
 
 // Materials without textures look the same everywhere: their appearance is looked up once.
 void TracedScene::prepare_constants() {
   const auto varies = [](const Material& m) {
+    if (m.pattern >= 0) return true;
     for (const TextureMap* map :
          {&m.base_color_map, &m.metallic_roughness_map, &m.specular_map, &m.specular_color_map,
           &m.transmission_map, &m.clearcoat_map, &m.clearcoat_roughness_map, &m.normal_map,

@@ -146,6 +146,7 @@ class TracedScene {
     int instance = -1;  // mesh, instance
   };
 
+  PatternedSurface patterned(const SurfacePoint& point) const;
   SurfaceParameters appearance(const SurfacePoint& point) const;
   void prepare_constants();
   void place(const Frame* frame);

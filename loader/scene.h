@@ -1,7 +1,7 @@
 // The scene contract: everything the integrator may know of a scene, and nothing of the file it
 // came from.
 //
-// Plain data, no behaviour. Conventions, everywhere:
+// Plain data; the one behaviour is that of a SurfacePattern. Conventions, everywhere:
 //   - right-handed coordinates; distances in scene units (glTF: metres); angles in radians;
 //   - colours are linear Rec. 709 / D65 triples;
 //   - light is in one consistent photometric system: radiance in cd·m⁻² (nit), intensity in cd,
@@ -20,6 +20,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,30 @@ enum class AlphaMode : std::uint8_t {
   opaque,  // alpha is ignored
   mask,    // the surface is there where alpha ≥ alpha_cutoff
   blend    // the surface covers the share alpha of what lies behind it
+};
+
+// What a SurfacePattern says of a point; each field stands in place of Material's own.
+struct PatternedSurface {
+  Color base_color{1.0f};
+  Color emission{0.0f};
+  Color specular_color{1.0f};
+  float roughness = 1.0f;
+  float specular = 1.0f;
+  float transmission = 0.0f;  // ignored where the material's own is 0
+};
+
+// A surface as a function of position, for patterns that fill space. Evaluated by many threads at
+// once, at every hit of the materials that name it.
+class SurfacePattern {
+ public:
+  SurfacePattern() = default;
+  SurfacePattern(const SurfacePattern&) = delete;
+  SurfacePattern& operator=(const SurfacePattern&) = delete;
+  virtual ~SurfacePattern() = default;
+
+  // point: world space. normal: unit, of the geometry there. error: how far the point may be off
+  // the surface, scene units; cells that meet in the surface itself are told apart by it.
+  virtual PatternedSurface at(const V3d& point, const V3d& normal, double error) const noexcept = 0;
 };
 
 // A metallic-roughness surface with coat, transmission and absorption. Each map multiplies its
@@ -120,6 +145,10 @@ struct Material {
   TextureMap clearcoat_roughness_map;  // G × clearcoat_roughness
   TextureMap clearcoat_normal_map;  // the coat's own; without it the coat has the geometry's normal
   float clearcoat_normal_scale = 1.0f;
+
+  // Index into Scene::patterns. What the pattern says varies is then, above, its mean; emission and
+  // transmission of 0 are 0 everywhere.
+  int pattern = -1;
 };
 
 // Indexed triangles in object space. Attribute arrays are empty or as long as positions.
@@ -290,6 +319,7 @@ struct Scene {
   std::string name;
   std::vector<Image> images;
   std::vector<Material> materials;
+  std::vector<std::shared_ptr<const SurfacePattern>> patterns;  // none is null
   std::vector<Mesh> meshes;
   std::vector<Sphere> spheres;
   std::vector<Instance> instances;

@@ -16,6 +16,19 @@ namespace lumivec::pov {
 // All that surface_of says of a material.
 using MaterialKey = std::array<float, 19>;
 
+// What a material with a pattern comes from.
+struct PatternKey {
+  std::shared_ptr<const Texture> texture;
+  std::shared_ptr<const Interior> interior;
+  bool lamp = false;
+  std::array<double, 16> to_world{};  // of the texture
+
+  bool operator<(const PatternKey& other) const {
+    return std::tie(texture, interior, lamp, to_world) <
+           std::tie(other.texture, other.interior, other.lamp, other.to_world);
+  }
+};
+
 struct Conversion {
   Parser& parser;
   const PovScene& scene;
@@ -25,7 +38,8 @@ struct Conversion {
   V3d focus{0.0};       // what the camera looks at, in the scene's coordinates
   double extent = 1.0;  // radius of the finite shapes around it
   std::map<std::tuple<const void*, const void*, bool>, int> materials;  // by what they come from
-  std::map<MaterialKey, int> distinct;                                  // by what they are
+  std::map<PatternKey, int> patterned;
+  std::map<MaterialKey, int> distinct;               // by what they are
   std::vector<std::shared_ptr<const Texture>> kept;  // so that their addresses stay their own
 };
 

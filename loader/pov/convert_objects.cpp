@@ -1,3 +1,5 @@
+#include <ImathBoxAlgo.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +19,7 @@ struct Around {
   M44d transform;  // to the scene's coordinates
   M44d to_world;   // the same, and on to the world
   std::shared_ptr<const Texture> texture;
+  M44d texture_transform;  // of the texture, to the scene's coordinates
   std::shared_ptr<const Interior> interior;
   Clips clips;                                             // what cuts the object's surface
   Imath::Box3d bounds{V3d(-beyond_all), V3d(beyond_all)};  // in the scene's coordinates
@@ -37,7 +40,8 @@ const char* shape_name(const Shape& shape) {
 }
 
 void mention_surface(Parser& parser, const Place& place, const SurfaceNotes& notes) {
-  if (notes.averaged) parser.mention(place, "a pattern became its average color");
+  if (notes.averaged)
+    parser.mention(place, "a pattern that is not followed became its average color");
   if (notes.ambient) {
     parser.mention(place,
                    "ambient light is left out: light comes from lamps, the sky and surfaces");
@@ -45,7 +49,6 @@ void mention_surface(Parser& parser, const Place& place, const SurfaceNotes& not
   if (notes.bumps) parser.mention(place, "the bumps of a normal are left out");
   if (notes.metallic) parser.mention(place, "a metallic highlight has the color of the light");
   if (notes.brilliance) parser.mention(place, "brilliance is left out");
-  if (notes.layers) parser.mention(place, "of a layered texture one layer is shown");
 }
 
 bool is_finite(const Material& m) {
@@ -79,32 +82,67 @@ MaterialKey key_of(const Material& m) {
           flag(m.double_sided)};
 }
 
-int material_of(Conversion& conversion, const Object& object, const Around& around) {
-  static const Texture usual = [] {
-    Texture texture;
-    texture.layers.emplace_back();
-    return texture;
-  }();
-  const Texture* texture = around.texture ? around.texture.get()
-                           : conversion.scene.default_texture
-                               ? conversion.scene.default_texture.get()
-                               : &usual;
-  const auto key = std::make_tuple(static_cast<const void*>(texture),
-                                   static_cast<const void*>(around.interior.get()), around.lamp);
-  const auto known = conversion.materials.find(key);
-  if (known != conversion.materials.end()) return known->second;
-  SurfaceChoice choice;
-  choice.gamma = conversion.scene.settings.assumed_gamma;
-  choice.lamp = around.lamp;
-  Object bare = object;
-  bare.transform = nullptr;
-  choice.bounds = bounds_of(bare);
-  SurfaceNotes notes;
-  Material material = surface_of(*texture, around.interior.get(), choice, notes);
-  mention_surface(conversion.parser, object.place, notes);
+void check_finite(Conversion& conversion, const Object& object, const Material& material) {
   if (!is_finite(material))
     conversion.parser.fail_at(
         object.place, "a color or other number of the object's surface is not finite or too large");
+}
+
+// Materials whose pattern fills the world differ by how the texture is placed in it.
+int patterned_material_of(Conversion& conversion, const Object& object, const Around& around,
+                          const std::shared_ptr<const Texture>& texture,
+                          const Imath::Box3d& world_bounds) {
+  const M44d to_world = around.texture_transform * conversion.to_world;
+  PatternKey key;
+  key.texture = texture;
+  key.interior = around.interior;
+  key.lamp = around.lamp;
+  std::copy(to_world.getValue(), to_world.getValue() + key.to_world.size(), key.to_world.begin());
+  const auto known = conversion.patterned.find(key);
+  if (known != conversion.patterned.end()) return known->second;
+  SurfaceChoice choice;
+  choice.gamma = conversion.scene.settings.assumed_gamma;
+  choice.lamp = around.lamp;
+  choice.bounds = world_bounds;
+  choice.world_to_texture = to_world.inverse();
+  SurfaceNotes notes;
+  Material material = surface_of(*texture, around.interior.get(), choice, notes);
+  mention_surface(conversion.parser, object.place, notes);
+  check_finite(conversion, object, material);
+  constexpr std::size_t pattern_bytes = 512;  // of the pattern itself, which shares the texture
+  conversion.parser.claim(sizeof(Material) + sizeof(PatternKey) + pattern_bytes);
+  material.pattern = static_cast<int>(conversion.out.patterns.size());
+  conversion.out.patterns.push_back(pattern_of(texture, around.interior, choice, material));
+  const int index = static_cast<int>(conversion.out.materials.size());
+  conversion.out.materials.push_back(std::move(material));
+  conversion.patterned.emplace(std::move(key), index);
+  return index;
+}
+
+int material_of(Conversion& conversion, const Object& object, const Around& around,
+                const Imath::Box3d& world_bounds) {
+  static const auto usual = [] {
+    auto texture = std::make_shared<Texture>();
+    texture->layers.emplace_back();
+    return std::shared_ptr<const Texture>(texture);
+  }();
+  const std::shared_ptr<const Texture>& texture = around.texture ? around.texture
+                                                  : conversion.scene.default_texture
+                                                      ? conversion.scene.default_texture
+                                                      : usual;
+  const auto key = std::make_tuple(static_cast<const void*>(texture.get()),
+                                   static_cast<const void*>(around.interior.get()), around.lamp);
+  const auto known = conversion.materials.find(key);
+  if (known != conversion.materials.end()) return known->second;
+  if (varies(*texture))
+    return patterned_material_of(conversion, object, around, texture, world_bounds);
+  SurfaceChoice choice;
+  choice.gamma = conversion.scene.settings.assumed_gamma;
+  choice.lamp = around.lamp;
+  SurfaceNotes notes;
+  Material material = surface_of(*texture, around.interior.get(), choice, notes);
+  mention_surface(conversion.parser, object.place, notes);
+  check_finite(conversion, object, material);
   const auto [same, fresh] = conversion.distinct.try_emplace(
       key_of(material), static_cast<int>(conversion.out.materials.size()));
   if (fresh) conversion.out.materials.push_back(std::move(material));
@@ -125,7 +163,8 @@ void add_instance(Conversion& conversion, const Object& object, const Around& ar
   Instance instance;
   instance.mesh = mesh;
   instance.sphere = sphere;
-  instance.material = material_of(conversion, object, around);
+  instance.material =
+      material_of(conversion, object, around, Imath::transform(bounds, object_to_world));
   instance.object_to_world = object_to_world;
   conversion.out.instances.push_back(std::move(instance));
 }
@@ -282,6 +321,7 @@ void convert_textured_mesh(Conversion& conversion, const Object& object, const M
     }
     Around own = around;
     own.texture = mesh.textures[static_cast<std::size_t>(texture)];
+    own.texture_transform = around.transform;
     convert_shape(conversion, part, own);
   }
 }
@@ -336,7 +376,11 @@ Around with_own(const Conversion& conversion, const Object& object, const Around
     own.transform = *object.transform * around.transform;
     own.to_world = own.transform * conversion.to_world;
   }
-  if (object.texture) own.texture = object.texture;
+  if (object.texture) {
+    own.texture = object.texture;
+    own.texture_transform =
+        object.texture_transform ? *object.texture_transform * around.transform : around.transform;
+  }
   if (object.interior) own.interior = object.interior;
   if (object.inverse) own.inside_out = !own.inside_out;
   if (object.extras) add_bounds(conversion.parser, *object.extras, around.transform, own);

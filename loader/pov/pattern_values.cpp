@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "loader/pov/functions.h"
@@ -12,17 +13,41 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+struct PatternPoint {
+  V3d at{0.0};
+  V3d spread{0.0};  // along each axis, for cells that meet in the surface
+};
+
 // Points move against what moved the pattern, the last step first.
-V3d pattern_point(const Pattern& pattern, V3d p, bool with_turbulence) {
+PatternPoint pattern_point(const Pattern& pattern, PatternPoint p, bool with_turbulence) {
   for (auto step = pattern.steps.rbegin(); step != pattern.steps.rend(); ++step) {
     if (step->kind == PatternStep::Kind::transform) {
-      p = p * step->transform.inverse();
-    } else if (step->kind == PatternStep::Kind::turbulence && with_turbulence) {
+      const M44d inverse = step->transform.inverse();
+      p.at = p.at * inverse;
+      inverse.multDirMatrix(p.spread, p.spread);
+    } else if (step->kind == PatternStep::Kind::turbulence) {
+      if (!with_turbulence) continue;
       const Turbulence turbulence{step->lambda, step->omega, static_cast<int>(step->octaves)};
-      p += turbulence.at(p) * step->turbulence;
+      p.at += turbulence.at(p.at) * step->turbulence;
+    } else if (step->warp == K::turbulence_) {
+      const Turbulence turbulence{step->lambda, step->omega, static_cast<int>(step->octaves)};
+      p.at += turbulence.at(p.at) * step->turbulence;
+    } else if (step->warp == K::repeat_ && !step->vectors.empty()) {
+      for (int i = 0; i < 3; ++i) {
+        const double length = std::abs(step->vectors[0][i]);
+        if (length > 0.0) p.at[i] -= std::floor(p.at[i] / length) * length;
+      }
     }
   }
   return p;
+}
+
+// Other warps say more than their first vector, or are of other kinds.
+bool follows_warps(const Pattern& pattern) {
+  return std::all_of(pattern.steps.begin(), pattern.steps.end(), [](const PatternStep& step) {
+    return step.kind != PatternStep::Kind::warp || step.warp == K::turbulence_ ||
+           (step.warp == K::repeat_ && step.vectors.size() == 1);
+  });
 }
 
 double fraction(double x) {
@@ -39,14 +64,121 @@ double rough_noise(const V3d& p) {
   double sum = 0.0, frequency = 1.0;
   for (int i = 0; i < 6; ++i, frequency *= 2.0)
     sum += std::abs(0.5 - noise(p * (4.0 * frequency))) / frequency;
-  return std::min(sum, 1.0);
+  constexpr double contrast = 2.0;  // to the mean brightness that POV-Ray's granite has
+  return std::min(contrast * sum, 1.0);
 }
 
-double checker(const V3d& p) {
+double cell(const PatternPoint& p, int axis) {
   constexpr double off_the_face = 1e-9;  // of planes through whole numbers
-  const double sum = std::floor(p.x + off_the_face) + std::floor(p.y + off_the_face) +
-                     std::floor(p.z + off_the_face);
+  return std::floor(p.at[axis] + std::max(off_the_face, std::abs(p.spread[axis])));
+}
+
+double checker(const PatternPoint& p) {
+  const double sum = cell(p, 0) + cell(p, 1) + cell(p, 2);
   return fraction(sum / 2.0) == 0.0 ? 0.0 : 1.0;
+}
+
+double parameter(const Pattern& pattern, K name, double usual) {
+  for (const auto& [key, value] : pattern.parameters) {
+    if (key == name) return value;
+  }
+  return usual;
+}
+
+// 0: mortar, 1: brick. Mortar lies at the upper ends of each brick; each second row is shifted by
+// half a brick along x.
+double brick(const Pattern& pattern, const PatternPoint& p) {
+  const V3d size = pattern.vector == V3d(0.0) ? V3d(8.0, 3.0, 4.5) : pattern.vector;
+  const double mortar = parameter(pattern, K::mortar_, 0.5);
+  V3d at;
+  for (int i = 0; i < 3; ++i) {
+    if (size[i] == 0.0) return 1.0;
+    at[i] = (p.at[i] + std::max(1e-9, std::abs(p.spread[i]))) / size[i];
+  }
+  const bool odd_row = fraction(std::floor(at.y) / 2.0) != 0.0;
+  if (odd_row) at.x += 0.5;
+  for (int i = 0; i < 3; ++i) {
+    if ((1.0 - fraction(at[i])) * std::abs(size[i]) <= mortar) return 0.0;
+  }
+  return 1.0;
+}
+
+// Three colors of hexagons with sides of length 1 around the y axis: the nearest point of a
+// triangular lattice says which.
+double hexagon(const V3d& p) {
+  constexpr double root_3 = std::numbers::sqrt3;
+  const double column = p.x / 1.5, row = p.z / root_3 - column / 2.0;
+  double best = std::numeric_limits<double>::infinity(), color = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      const double c = std::floor(column) + i, r = std::floor(row) + j;
+      const double distance = std::hypot(c * 1.5 - p.x, (r + c / 2.0) * root_3 - p.z);
+      if (distance >= best) continue;
+      best = distance;
+      color = std::round(fraction((r - c) / 3.0) * 3.0);
+    }
+  }
+  return std::clamp(color, 0.0, 2.0);
+}
+
+// [0, 1), without relation between neighbours.
+double random_of(const V3d& cell, double which) {
+  const double mixed =
+      std::sin(cell.x * 12.9898 + cell.y * 78.233 + cell.z * 37.719 + which * 4.581);
+  return fraction(mixed * 43758.5453);
+}
+
+// One point in each unit cube; form weighs the distances to the three nearest.
+double crackle(const Pattern& pattern, const V3d& p) {
+  double form[3] = {-1.0, 1.0, 0.0};
+  std::size_t given = 0;
+  for (const auto& [key, value] : pattern.parameters) {
+    if (key == K::form_ && given < 3) form[given++] = value;
+  }
+  const double metric = parameter(pattern, K::metric_, 2.0);
+  const V3d home(std::floor(p.x), std::floor(p.y), std::floor(p.z));
+  constexpr double far = 1e9;
+  double nearest[3] = {far, far, far};
+  for (int i = 0; i < 125; ++i) {
+    const V3d cube = home + V3d(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2);
+    const V3d d = cube + V3d(random_of(cube, 0.0), random_of(cube, 1.0), random_of(cube, 2.0)) - p;
+    double distance = 0.0;
+    if (metric == 2.0) {
+      distance = d.length();
+    } else if (metric == 1.0) {
+      distance = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    } else {
+      distance = std::pow(std::pow(std::abs(d.x), metric) + std::pow(std::abs(d.y), metric) +
+                              std::pow(std::abs(d.z), metric),
+                          1.0 / metric);
+    }
+    for (double& held : nearest) {
+      if (distance < held) std::swap(distance, held);
+    }
+  }
+  return std::clamp(form[0] * nearest[0] + form[1] * nearest[1] + form[2] * nearest[2], 0.0, 1.0);
+}
+
+// Bands along z, bent by turbulence of their own.
+double agate(const Pattern& pattern, const V3d& p) {
+  const double strength = parameter(pattern, K::agate_turb_, 1.0);
+  const double bent = 1.1 * p.z + 1.3 * strength * Turbulence().at(p).x;
+  return 0.5 + 0.5 * std::sin(2.0 * pi * bent);
+}
+
+double cube_noise(const V3d& p) {
+  const double n = noise(p);
+  return n * n * n;
+}
+
+// Sums of finer and finer noise without its creases.
+double wrinkles(const V3d& p) {
+  double sum = 0.0, strength = 1.0, total = 0.0, frequency = 1.0;
+  for (int i = 0; i < 10; ++i, strength *= 0.5, frequency *= 2.0) {
+    sum += strength * noise(p * frequency);
+    total += strength;
+  }
+  return sum / total;
 }
 
 double turbulence_strength(const Pattern& pattern) {
@@ -56,13 +188,29 @@ double turbulence_strength(const Pattern& pattern) {
   return 0.0;
 }
 
-std::optional<double> raw_value(const Pattern& pattern, const V3d& p) {
+std::optional<double> raw_value(const Pattern& pattern, const PatternPoint& point) {
+  const V3d& p = point.at;
   switch (pattern.kind) {
     case K::checker_:
-      return checker(p);
+      return checker(point);
+    case K::brick_:
+      return brick(pattern, point);
+    case K::hexagon_:
+      return hexagon(p);
+    case K::crackle_:
+      return crackle(pattern, p);
+    case K::cells_:
+      return random_of({cell(point, 0), cell(point, 1), cell(point, 2)}, 0.0);
+    case K::pigment_pattern_: {
+      if (!pattern.pigment) return std::nullopt;
+      bool approximate = false;
+      const ColorFT c = pigment_color(*pattern.pigment, p, approximate, point.spread);
+      if (approximate) return std::nullopt;
+      return 0.297 * c.red + 0.589 * c.green + 0.114 * c.blue;  // grey, as the language has it
+    }
     case K::gradient_: {
       const V3d n = pattern.vector.normalized();
-      return fraction(std::abs(p.x * n.x + p.y * n.y + p.z * n.z));
+      return fraction(p.x * n.x + p.y * n.y + p.z * n.z);
     }
     case K::onion_:
       return fraction(p.length());
@@ -88,10 +236,13 @@ std::optional<double> raw_value(const Pattern& pattern, const V3d& p) {
     case K::spotted_:
     case K::bumps_:
       return noise(p);
-    case K::granite_:
     case K::agate_:
+      return agate(pattern, p);
     case K::wrinkles_:
+      return wrinkles(p);
     case K::dents_:
+      return cube_noise(p);
+    case K::granite_:
       return rough_noise(p);
     case K::function_: {
       const double arguments[3] = {p.x, p.y, p.z};
@@ -132,18 +283,6 @@ ColorFT mix(const ColorFT& a, const ColorFT& b, double share) {
           between(a.filter, b.filter), between(a.transmit, b.transmit)};
 }
 
-// The entries around a value, and the share of the second.
-template <class Map>
-std::pair<std::size_t, double> place_in(const Map& map, double value) {
-  if (value <= map.front().first) return {0, 0.0};
-  for (std::size_t i = 0; i + 1 < map.size(); ++i) {
-    if (value > map[i + 1].first) continue;
-    const double width = map[i + 1].first - map[i].first;
-    return {i, width > 0.0 ? (value - map[i].first) / width : 1.0};
-  }
-  return {map.size() - 1, 0.0};
-}
-
 ColorFT mean_of(const Pigment& pigment, const V3d& p, bool& approximate) {
   ColorFT sum;
   double count = 0.0;
@@ -156,40 +295,71 @@ ColorFT mean_of(const Pigment& pigment, const V3d& p, bool& approximate) {
   return count > 0.0 ? sum : ColorFT{middle, middle, middle, 0.0, 0.0};
 }
 
+// By the shares that the map says.
+ColorFT weighted_mean(const Pigment& pigment, const PatternPoint& p, bool& approximate) {
+  ColorFT sum;
+  double total = 0.0;
+  const auto add = [&](double weight, const ColorFT& c) {
+    if (weight <= 0.0) return;
+    total += weight;
+    sum = mix(sum, c, weight / total);
+  };
+  for (const auto& [weight, color] : pigment.color_map) add(weight, color);
+  for (const auto& [weight, part] : pigment.pigment_map)
+    add(weight, pigment_color(*part, p.at, approximate, p.spread));
+  return sum;
+}
+
+// The language's own colors of lists that say fewer.
+ColorFT usual_choice(K kind, std::size_t which) {
+  constexpr ColorFT blue{0, 0, 1, 0, 0}, green{0, 1, 0, 0, 0}, red{1, 0, 0, 0, 0};
+  constexpr ColorFT mortar{0.5, 0.5, 0.5, 0, 0}, brick{0.6, 0.15, 0.15, 0, 0};
+  if (kind == K::brick_) return which == 0 ? mortar : brick;
+  return which == 0 ? blue : which == 1 ? green : red;
+}
+
 }  // namespace
 
-std::optional<double> pattern_value(const Pattern& pattern, const V3d& point) {
-  const auto value = raw_value(pattern, pattern_point(pattern, point, pattern.kind != K::marble_));
-  if (!value || pattern.kind == K::checker_) return value;
+bool chooses(const Pattern& pattern) {
+  return pattern.kind == K::checker_ || pattern.kind == K::brick_ || pattern.kind == K::hexagon_;
+}
+
+std::optional<double> pattern_value(const Pattern& pattern, const V3d& point, const V3d& spread) {
+  if (!follows_warps(pattern)) return std::nullopt;
+  const auto value =
+      raw_value(pattern, pattern_point(pattern, {point, spread}, pattern.kind != K::marble_));
+  if (!value || chooses(pattern)) return value;
   return with_wave(pattern, *value);
 }
 
-ColorFT pigment_color(const Pigment& pigment, const V3d& point, bool& approximate) {
+ColorFT pigment_color(const Pigment& pigment, const V3d& point, bool& approximate,
+                      const V3d& spread) {
   if (pigment.image) {
     approximate = true;
     return mean_of(pigment, point, approximate);
   }
   if (pigment.pattern.kind == K::keyword_count) return pigment.color;
-  const V3d inside = pattern_point(pigment.pattern, point, false);
-  const auto value = pattern_value(pigment.pattern, point);
+  const PatternPoint inside = pattern_point(pigment.pattern, {point, spread}, false);
+  if (pigment.pattern.kind == K::average_) return weighted_mean(pigment, inside, approximate);
+  const auto value = pattern_value(pigment.pattern, point, spread);
   if (!value) {
     approximate = true;
-    return mean_of(pigment, inside, approximate);
+    return mean_of(pigment, inside.at, approximate);
   }
-  if (pigment.pattern.kind == K::checker_) {
+  const auto part = [&](const Pigment& inner) {
+    return pigment_color(inner, inside.at, approximate, inside.spread);
+  };
+  if (chooses(pigment.pattern)) {
     const auto which = static_cast<std::size_t>(*value);
-    if (which < pigment.pigments.size())
-      return pigment_color(*pigment.pigments[which], inside, approximate);
+    if (which < pigment.pigments.size()) return part(*pigment.pigments[which]);
     if (which < pigment.colors.size()) return pigment.colors[which];
-    constexpr ColorFT usual[2] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}};  // as the language has them
-    return usual[which];
+    return usual_choice(pigment.pattern.kind, which);
   }
   if (!pigment.pigment_map.empty()) {
     const auto [i, share] = place_in(pigment.pigment_map, *value);
-    const ColorFT first = pigment_color(*pigment.pigment_map[i].second, inside, approximate);
+    const ColorFT first = part(*pigment.pigment_map[i].second);
     if (share == 0.0) return first;
-    return mix(first, pigment_color(*pigment.pigment_map[i + 1].second, inside, approximate),
-               share);
+    return mix(first, part(*pigment.pigment_map[i + 1].second), share);
   }
   if (pigment.color_map.empty()) return {*value, *value, *value, 0.0, 0.0};
   const auto [i, share] = place_in(pigment.color_map, *value);

@@ -14,48 +14,18 @@ double mean(const Rgb& c) {
   return (c[0] + c[1] + c[2]) / 3.0;
 }
 
-ColorFT average(const Pigment& pigment, const Imath::Box3d& bounds, SurfaceNotes& notes) {
-  if (pigment.pattern.kind == K::keyword_count && !pigment.image) return pigment.color;
-  notes.averaged = true;
-  constexpr int steps = 5;  // along each axis, away from the edges
-  ColorFT sum;
-  bool approximate = false;
-  constexpr double weight = 1.0 / (steps * steps * steps);
-  const bool known = !bounds.isEmpty();
-  constexpr double farthest = 100.0;  // of infinite shapes a part is as good as all
-  for (int i = 0; i < steps * steps * steps; ++i) {
-    const int at[3] = {i % steps, i / steps % steps, i / (steps * steps)};
-    V3d p;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double low = known ? std::max(bounds.min[axis], -farthest) : 0.0;
-      const double high = known ? std::min(bounds.max[axis], farthest) : 1.0;
-      p[axis] = low + (high - low) * (at[axis] + 0.37) / steps;
-    }
-    const ColorFT c = pigment_color(pigment, p, approximate);
-    sum = {sum.red + weight * c.red, sum.green + weight * c.green, sum.blue + weight * c.blue,
-           sum.filter + weight * c.filter, sum.transmit + weight * c.transmit};
-  }
-  return sum;
-}
+// A place in a texture's space, as pattern_values.h has it.
+struct TexturePoint {
+  V3d at{0.0};
+  V3d spread{0.0};
+};
 
-// The topmost layer that lets nothing through, or else the topmost of all; of textures that a
-// pattern chooses, the first.
-const TextureLayer& shown_layer(const Texture& texture, SurfaceNotes& notes) {
-  const TextureLayer* layer = &texture.layers.back();
-  if (texture.layers.size() > 1) notes.layers = true;
-  for (auto it = texture.layers.rbegin(); it != texture.layers.rend(); ++it) {
-    const ColorFT& c = it->pigment.color;
-    if (it->pigment.pattern.kind == K::keyword_count && c.filter + c.transmit > 0.5) continue;
-    layer = &*it;
-    break;
-  }
-  for (int depth = 0; depth < 8 && !layer->textures.empty(); ++depth) {
-    const auto& inner = layer->textures.front().second;
-    if (!inner || inner->layers.empty()) break;
-    notes.averaged = true;
-    layer = &inner->layers.back();
-  }
-  return *layer;
+TexturePoint moved(const TexturePoint& p, const M44d& transform) {
+  if (transform == M44d()) return p;
+  const M44d inverse = transform.inverse();
+  TexturePoint inside{p.at * inverse, V3d(0.0)};
+  inverse.multDirMatrix(p.spread, inside.spread);
+  return inside;
 }
 
 // The roughness of a gloss whose lobe is as wide as that of an exponent of Phong or Blinn.
@@ -147,17 +117,27 @@ Color linear_color(double red, double green, double blue, double gamma) {
   return {linear(red), linear(green), linear(blue)};
 }
 
-Material surface_of(const Texture& texture, const Interior* interior, const SurfaceChoice& choice,
-                    SurfaceNotes& notes) {
+namespace {
+
+// What all points of a texture share.
+struct Setting {
+  const Interior* interior = nullptr;
+  double gamma = 1.0;
+  bool lamp = false;
+};
+
+Material dull_surface() {
   Material material;
   material.double_sided = true;
   material.specular = 0.0f;
   material.roughness = 1.0f;
-  if (texture.layers.empty()) return material;
-  const TextureLayer& layer = shown_layer(texture, notes);
-  const Finish& finish = layer.finish;
-  const ColorFT color = average(layer.pigment, choice.bounds, notes);
-  const Color c = linear_color(color.red, color.green, color.blue, choice.gamma);
+  return material;
+}
+
+Material plain_surface(const ColorFT& color, const Finish& finish, const Setting& setting,
+                       SurfaceNotes& notes) {
+  Material material = dull_surface();
+  const Color c = linear_color(color.red, color.green, color.blue, setting.gamma);
   const Rgb linear = {c.x, c.y, c.z};
   Rgb diffuse{};
   for (std::size_t i = 0; i < 3; ++i) diffuse[i] = std::clamp(linear[i] * finish.diffuse, 0.0, 1.0);
@@ -165,22 +145,215 @@ Material surface_of(const Texture& texture, const Interior* interior, const Surf
                               static_cast<float>(diffuse[2]));
   set_gloss(finish, material);
   if (mean(finish.reflection_max) > 0.0)
-    set_reflection(finish, linear, interior, material, choice.gamma);
+    set_reflection(finish, linear, setting.interior, material, setting.gamma);
   if (color.filter + color.transmit > 0.0)
-    set_transmission(color, linear, finish, interior, material, choice.gamma);
+    set_transmission(color, linear, finish, setting.interior, material, setting.gamma);
   // Surfaces that only glow are lamps or screens; elsewhere ambient stands for what light passes
   // on.
-  const bool glows = choice.lamp || finish.diffuse == 0.0;
+  const bool glows = setting.lamp || finish.diffuse == 0.0;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double shine = finish.emission[k] + (glows ? finish.ambient[k] : 0.0);
     material.emission[i] = static_cast<float>(std::max(shine, 0.0) * linear[k]);
   }
   notes.ambient |= !glows && mean(finish.ambient) > 0.0;
-  notes.bumps |= layer.has_normal;
   notes.metallic |= finish.metallic > 0.0 && std::max(finish.phong, finish.specular) > 0.0;
   notes.brilliance |= finish.brilliance != 1.0;
   return material;
+}
+
+// The share of light that a mirror or gloss reflects head-on.
+float reflectance(const Material& m) {
+  if (m.ior == 0.0f) return m.specular;
+  const float r = (m.ior - 1.0f) / (m.ior + 1.0f);
+  return m.specular * r * r;
+}
+
+// Takes over the kind of reflection that surface has, in shares of the whole.
+void take_reflection(Material& material, const Material& surface) {
+  material.specular = surface.specular;
+  material.specular_color = surface.specular_color;
+  material.roughness = surface.roughness;
+  material.ior = surface.ior;
+  material.thin_walled = surface.thin_walled;
+}
+
+Material between(const Material& a, const Material& b, float share) {
+  Material m = reflectance(a) * (1.0f - share) >= reflectance(b) * share ? a : b;
+  const auto mix = [share](const auto& x, const auto& y) { return x + (y - x) * share; };
+  m.base_color = mix(a.base_color, b.base_color);
+  m.emission = mix(a.emission, b.emission);
+  m.transmission = mix(a.transmission, b.transmission);
+  m.thin_walled = a.thin_walled && b.thin_walled;
+  m.double_sided = a.double_sided && b.double_sided;
+  const Material& clearer = b.transmission > a.transmission ? b : a;
+  m.attenuation_distance = clearer.attenuation_distance;
+  m.attenuation_color = clearer.attenuation_color;
+  if (a.ior == b.ior) {
+    m.specular = mix(a.specular, b.specular);
+    m.roughness = mix(a.roughness, b.roughness);
+    m.specular_color = mix(a.specular_color, b.specular_color);
+  }
+  return m;
+}
+
+Material surface_at(const Texture& texture, const TexturePoint& p, const Setting& setting,
+                    SurfaceNotes& notes);
+
+// Of textures that a pattern chooses from.
+Material chosen_surface(const TextureLayer& layer, const TexturePoint& p, const Setting& setting,
+                        SurfaceNotes& notes) {
+  const auto surface = [&](std::size_t i) {
+    const auto& texture = layer.textures[std::min(i, layer.textures.size() - 1)].second;
+    return texture ? surface_at(*texture, p, setting, notes) : dull_surface();
+  };
+  const auto value = pattern_value(layer.pattern, p.at, p.spread);
+  if (!value) {
+    notes.averaged = true;
+    return surface(0);
+  }
+  if (chooses(layer.pattern)) return surface(static_cast<std::size_t>(*value));
+  const auto [i, share] = place_in(layer.textures, *value);
+  if (share == 0.0) return surface(i);
+  return between(surface(i), surface(i + 1), static_cast<float>(share));
+}
+
+ColorFT layer_color(const TextureLayer& layer, const TexturePoint& p, SurfaceNotes& notes) {
+  return pigment_color(layer.pigment, p.at, notes.averaged, p.spread);
+}
+
+// Lays surface on top of material: cover is its share that lets nothing through, passed what of
+// each color reaches what lies below.
+void lay_on(Material& material, const Material& surface, float cover, const Color& passed) {
+  material.base_color = surface.base_color * cover + material.base_color * passed;
+  material.emission = surface.emission * cover + material.emission * passed;
+  material.transmission *= 1.0f - cover;
+  if (reflectance(surface) * cover > reflectance(material) * (1.0f - cover)) {
+    take_reflection(material, surface);
+    material.specular *= cover;
+  }
+}
+
+Material surface_at(const Texture& texture, const TexturePoint& p, const Setting& setting,
+                    SurfaceNotes& notes) {
+  Material material = dull_surface();
+  bool lowest = true;
+  for (const TextureLayer& layer : texture.layers) {
+    notes.bumps |= layer.has_normal;
+    const TexturePoint inside = moved(p, layer.transform);
+    if (!layer.textures.empty()) {
+      const Material chosen = chosen_surface(layer, inside, setting, notes);
+      if (lowest) {
+        material = chosen;
+      } else {
+        lay_on(material, chosen, 1.0f - chosen.transmission,
+               chosen.base_color * chosen.transmission);
+      }
+      lowest = false;
+      continue;
+    }
+    ColorFT color = layer_color(layer, inside, notes);
+    if (lowest) {
+      material = plain_surface(color, layer.finish, setting, notes);
+      lowest = false;
+      continue;
+    }
+    const double filter = std::clamp(color.filter, 0.0, 1.0);
+    const double transmit = std::clamp(color.transmit, 0.0, 1.0 - filter);
+    const Color linear = linear_color(color.red, color.green, color.blue, setting.gamma);
+    const Color passed = linear * static_cast<float>(filter) + Color(static_cast<float>(transmit));
+    color.filter = color.transmit = 0.0;
+    lay_on(material, plain_surface(color, layer.finish, setting, notes),
+           static_cast<float>(1.0 - filter - transmit), passed);
+  }
+  return material;
+}
+
+class TexturePattern final : public SurfacePattern {
+ public:
+  TexturePattern(std::shared_ptr<const Texture> texture, std::shared_ptr<const Interior> interior,
+                 const SurfaceChoice& choice, const Material& mean)
+      : texture_(std::move(texture)),
+        interior_(std::move(interior)),
+        setting_{interior_.get(), choice.gamma, choice.lamp},
+        world_to_texture_(choice.world_to_texture),
+        mirrors_(mean.ior == 0.0f) {}
+
+  PatternedSurface at(const V3d& point, const V3d& normal, double error) const noexcept override {
+    TexturePoint p{point * world_to_texture_, V3d(0.0)};
+    world_to_texture_.multDirMatrix(normal * error, p.spread);
+    SurfaceNotes notes;
+    const Material m = surface_at(*texture_, p, setting_, notes);
+    PatternedSurface surface;
+    surface.base_color = finite(m.base_color);
+    surface.emission = finite(m.emission);
+    surface.specular_color = finite(m.specular_color);
+    surface.roughness = m.roughness;
+    surface.transmission = m.transmission;
+    // The index of refraction is the material's: where that mirrors, gloss is a faint mirror.
+    surface.specular = mirrors_ ? reflectance(m) : m.specular;
+    return surface;
+  }
+
+ private:
+  static Color finite(const Color& c) {
+    static constexpr float most = 1e30f;
+    const auto bounded = [](float x) { return x > 0.0f ? std::min(x, most) : 0.0f; };
+    return {bounded(c.x), bounded(c.y), bounded(c.z)};
+  }
+
+  std::shared_ptr<const Texture> texture_;
+  std::shared_ptr<const Interior> interior_;
+  Setting setting_;
+  M44d world_to_texture_;
+  bool mirrors_;
+};
+
+// What all the points say together.
+Material mean_surface(const Texture& texture, const Setting& setting, const SurfaceChoice& choice,
+                      SurfaceNotes& notes) {
+  constexpr int points = 128;
+  // Points of the R3 sequence, which do not fall into step with the cells of a pattern.
+  constexpr double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  constexpr double farthest = 100.0;  // of infinite shapes a part is as good as all
+  const bool known = !choice.bounds.isEmpty();
+  Material sum;
+  for (int i = 0; i < points; ++i) {
+    V3d p;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double middle = known ? choice.bounds.center()[axis] : 0.5;
+      const double half = known ? std::min(choice.bounds.size()[axis] / 2.0, farthest) : 0.5;
+      const double turns = 0.5 + step[axis] * (i + 1);
+      p[axis] = middle + half * (2.0 * (turns - std::floor(turns)) - 1.0);
+    }
+    const Material m = surface_at(texture, {p * choice.world_to_texture, V3d(0.0)}, setting, notes);
+    sum = i == 0 ? m : between(sum, m, 1.0f / static_cast<float>(i + 1));
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool varies(const Texture& texture) {
+  return std::any_of(texture.layers.begin(), texture.layers.end(), [](const TextureLayer& layer) {
+    return !layer.textures.empty() || layer.pigment.image ||
+           layer.pigment.pattern.kind != K::keyword_count;
+  });
+}
+
+Material surface_of(const Texture& texture, const Interior* interior, const SurfaceChoice& choice,
+                    SurfaceNotes& notes) {
+  const Setting setting{interior, choice.gamma, choice.lamp};
+  if (varies(texture)) return mean_surface(texture, setting, choice, notes);
+  return surface_at(texture, {}, setting, notes);
+}
+
+std::shared_ptr<const SurfacePattern> pattern_of(std::shared_ptr<const Texture> texture,
+                                                 std::shared_ptr<const Interior> interior,
+                                                 const SurfaceChoice& choice,
+                                                 const Material& mean) {
+  return std::make_shared<const TexturePattern>(std::move(texture), std::move(interior), choice,
+                                                mean);
 }
 
 }  // namespace lumivec::pov

@@ -1,0 +1,168 @@
+// Patterns of POV-Ray's pigments where rays hit them. All scenes are convex and stand in an even
+// sky of radiance 1, so that what the eye sees of a diffuse surface is its reflectance.
+#include <array>
+#include <cmath>
+
+#include "integrator/render.h"
+#include "tests/pov_file.h"
+
+namespace {
+
+using lumivec::Color;
+using lumivec::Framebuffer;
+using lumivec::Scene;
+
+constexpr int pixels = 32;  // along both edges of what is seen: 8 units, so that 4 are a unit
+
+const std::string around =
+    "global_settings { assumed_gamma 1 } background { rgb 1 } #default { finish { diffuse 1 "
+    "ambient 0 } } camera { orthographic location <0, 0, -10> look_at 0 right 8*x up 8*y } ";
+
+Framebuffer see(const Scene& scene) {
+  lumivec::RenderSettings settings;
+  settings.width = settings.height = pixels;
+  settings.samples = 16;
+  lumivec::RenderStatistics statistics;
+  return render(scene, scene.cameras.at(0), settings, statistics);
+}
+
+Framebuffer see(const std::string& items) {
+  PovFile file(around + items);
+  const Framebuffer picture = see(file.load());
+  EXPECT_FALSE(file.warns("average color")) << items;
+  return picture;
+}
+
+// At a place of the plane z = 0.
+Color at(const Framebuffer& picture, double x, double y) {
+  const int column = static_cast<int>((x + 4.0) / 8.0 * pixels);
+  const int row = static_cast<int>((4.0 - y) / 8.0 * pixels);
+  return picture.beauty(std::size_t(row) * pixels + std::size_t(column));
+}
+
+void expect_color(const Color& seen, const Color& wanted, const char* what) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(seen[i], wanted[i], 0.03) << what << ' ' << i;
+}
+
+const Color red(0.8f, 0.1f, 0.1f), green(0.1f, 0.8f, 0.1f);
+const std::string checker = "checker rgb <0.8, 0.1, 0.1> rgb <0.1, 0.8, 0.1>";
+
+TEST(PovPattern, ACheckerOnAFaceBetweenCellsHasBothColorsInTheirPlaces) {
+  const Framebuffer picture = see("plane { -z, 0 pigment { " + checker + " } }");
+  for (int x = -3; x < 3; ++x) {
+    for (int y = -3; y < 3; ++y)
+      expect_color(at(picture, x + 0.6, y + 0.6), (x + y) % 2 == 0 ? red : green, "cell");
+  }
+}
+
+TEST(PovPattern, TransformsOfAPatternAndOfItsObjectMoveIt) {
+  const Framebuffer scaled =
+      see("plane { -z, 0 pigment { " + checker + " scale 2 translate <1, 0, 0> } }");
+  expect_color(at(scaled, 1.6, 0.6), red, "1..3");
+  expect_color(at(scaled, 2.6, 1.6), red, "1..3");
+  expect_color(at(scaled, 0.4, 0.6), green, "-1..1");
+  // What moves the object after its texture moves both; what moves it before, only the object.
+  const std::string box = "box { <-3, -3, 0>, <3, 3, 1> ";
+  const Framebuffer with = see(box + "pigment { " + checker + " } translate x }");
+  expect_color(at(with, 1.6, 0.6), red, "moved along");
+  const Framebuffer without = see(box + "translate x pigment { " + checker + " } }");
+  expect_color(at(without, 1.6, 0.6), green, "stays");
+}
+
+TEST(PovPattern, InstancesCarryTheirPatternAlong) {
+  const Framebuffer picture =
+      see("#declare Tile = box { <0, 0, 0>, <2, 2, 1> pigment { " + checker +
+          " } } object { Tile translate <-3, 0, 0> } object { Tile translate <0, -2, 0> }");
+  expect_color(at(picture, -2.4, 0.6), red, "first cell of the first");
+  expect_color(at(picture, -1.4, 0.6), green, "second cell of the first");
+  expect_color(at(picture, 0.6, -1.4), red, "first cell of the second");
+  expect_color(at(picture, 1.6, -1.4), green, "second cell of the second");
+}
+
+TEST(PovPattern, AnExactSphereShowsItsPattern) {
+  const std::string sphere =
+      "sphere { 0, 1 pigment { gradient x color_map { [0.5 rgb <0.8, 0.1, 0.1>] "
+      "[0.5 rgb <0.1, 0.8, 0.1>] } translate -0.5*x scale 8 } scale 3 ";
+  PovFile file(around + sphere + "}");
+  EXPECT_EQ(file.load().spheres.size(), 1u);
+  const Framebuffer picture = see(sphere + "}");
+  expect_color(at(picture, -1.1, 0.4), red, "left");
+  expect_color(at(picture, 1.1, 0.4), green, "right");
+  const Framebuffer turned = see(sphere + "rotate 180*z }");
+  expect_color(at(turned, -1.1, 0.4), green, "left, turned");
+  expect_color(at(turned, 1.1, 0.4), red, "right, turned");
+  const Framebuffer ellipsoid = see(sphere + "scale <1, 0.5, 1> }");
+  expect_color(at(ellipsoid, -1.1, 0.4), red, "left, squeezed");
+  expect_color(at(ellipsoid, 1.1, 0.4), green, "right, squeezed");
+}
+
+TEST(PovPattern, WhatAPatternTransmitsShowsWhatLiesBehind) {
+  const Framebuffer picture =
+      see("plane { -z, 0 pigment { checker rgb <0.8, 0.1, 0.1> rgbt 1 } } "
+          "plane { -z, -1 pigment { rgb 0 } }");
+  expect_color(at(picture, 0.6, 0.6), red, "opaque");
+  expect_color(at(picture, 1.6, 0.6), Color(0.0f), "clear");
+}
+
+TEST(PovPattern, LayersCoverEachOtherWhereTheyAreOpaque) {
+  const Framebuffer picture =
+      see("plane { -z, 0 texture { pigment { rgb <0.1, 0.8, 0.1> } } texture { pigment { checker "
+          "rgb <0.8, 0.1, 0.1> rgbt 1 } } }");
+  expect_color(at(picture, 0.6, 0.6), red, "upper");
+  expect_color(at(picture, 1.6, 0.6), green, "lower");
+}
+
+TEST(PovPattern, PatternsChooseTextures) {
+  const Framebuffer picture =
+      see("plane { -z, 0 texture { checker texture { pigment { rgb <0.8, 0.1, 0.1> } } texture { "
+          "pigment { rgb <0.1, 0.8, 0.1> } } } }");
+  expect_color(at(picture, 0.6, 0.6), red, "first");
+  expect_color(at(picture, 1.6, 0.6), green, "second");
+}
+
+TEST(PovPattern, ColorsAreBlendedAsWrittenAndThenMadeLinear) {
+  const std::string gradient =
+      "plane { -z, 0 pigment { gradient x color_map { [0 rgb 0] [1 rgb 1] } translate -0.5*x "
+      "scale 8 } }";
+  const Framebuffer linear = see(gradient);
+  const Framebuffer encoded = see("global_settings { assumed_gamma 2.2 } " + gradient);
+  const double value = (2.125 + 4.0) / 8.0;  // in the middle of a pixel
+  EXPECT_NEAR(at(linear, 2.1, 0.1).x, value, 0.02);
+  EXPECT_NEAR(at(encoded, 2.1, 0.1).x, std::pow(value, 2.2), 0.02);
+}
+
+TEST(PovPattern, BricksHaveMortarAtTheirUpperEndsAndEachSecondRowShifted) {
+  const Framebuffer picture =
+      see("plane { -z, 0 pigment { brick rgb <0.8, 0.1, 0.1> rgb <0.1, 0.8, 0.1> } }");
+  expect_color(at(picture, -0.3, 1.1), red, "before a brick");
+  expect_color(at(picture, 0.4, 1.1), green, "in a brick");
+  expect_color(at(picture, 1.1, -0.3), red, "below a row");
+  expect_color(at(picture, -0.3, 3.4), green, "in a shifted brick");
+  expect_color(at(picture, 3.7, 3.4), red, "before a shifted brick");
+}
+
+TEST(PovPattern, GradientsRepeatBelowZeroAsAbove) {
+  const Framebuffer picture =
+      see("plane { -z, 0 pigment { gradient x color_map { [0 rgb 0] [1 rgb 1] } scale 2 } }");
+  const double value = 0.3125;  // 0.625 of a period of 2, in the middle of a pixel
+  for (const double x : {-3.4, -1.4, 0.6, 2.6})
+    EXPECT_NEAR(at(picture, x, 0.1).x, value, 0.03) << x;
+}
+
+TEST(PovPattern, EmissionFollowsThePattern) {
+  const Framebuffer picture =
+      see("plane { -z, 0 pigment { " + checker + " } finish { diffuse 0 emission 1 } }");
+  expect_color(at(picture, 0.6, 0.6), red, "first");
+  expect_color(at(picture, 1.6, 0.6), green, "second");
+}
+
+TEST(PovPattern, PatternsThatAreNotFollowedAreMentioned) {
+  PovFile file(around + "plane { -z, 0 pigment { mandel 10 } }");
+  file.load();
+  EXPECT_TRUE(file.warns("a pattern that is not followed became its average color"));
+  PovFile followed(around + "plane { -z, 0 pigment { granite } }");
+  followed.load();
+  EXPECT_FALSE(followed.warns("average color"));
+}
+
+}  // namespace
