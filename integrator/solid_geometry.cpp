@@ -76,8 +76,9 @@ bool find_boundary(const TracedScene& scene, unsigned primitive, unsigned geomet
     arguments.N = 1;
     filter(&arguments);
     if (valid != 0) return true;
-    // The boundary itself comes again where rounding takes it behind itself.
-    near = boundary->t + std::abs(boundary->t) * 0x1p-40;
+    // As the paths do it: the boundary itself must not come again.
+    const double size = solid.bounds().size().length() / r.line.direction.length();
+    near = boundary->t + 0x1p-20 * (std::abs(boundary->t) + size);
   }
   ray.tfar = far;
   return false;

@@ -122,6 +122,28 @@ Polynomial along(const SolidLeaf& leaf, const V3d& origin, const V3d& direction)
     p.c[2] -= 4.0 * c;
     return p;
   }
+  // Planes and quadrics need no products of polynomials.
+  const auto is_quadratic = [](const PolynomialTerm& term) {
+    return term.powers[0] + term.powers[1] + term.powers[2] <= 2;
+  };
+  if (std::all_of(leaf.terms.begin(), leaf.terms.end(), is_quadratic)) {
+    Polynomial sum;
+    sum.degree = 2;
+    for (const PolynomialTerm& term : leaf.terms) {
+      double constant = term.coefficient, linear = 0.0, square = 0.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        for (int i = 0; i < term.powers[std::size_t(axis)]; ++i) {
+          square = linear * direction[axis];
+          linear = constant * direction[axis] + linear * origin[axis];
+          constant *= origin[axis];
+        }
+      }
+      sum.c[0] += constant;
+      sum.c[1] += linear;
+      sum.c[2] += square;
+    }
+    return sum;
+  }
   std::array<std::array<Polynomial, max_polynomial_degree + 1>, 3> powers;
   std::array<int, 3> known{};
   for (std::size_t axis = 0; axis < 3; ++axis) powers[axis][0].c[0] = 1.0;
