@@ -69,8 +69,8 @@ struct Walk {
 };
 
 bool combined(const SolidNode& node, int inside_children, int children) {
-  const bool raw = node.operation == SolidOperation::unite ? inside_children > 0
-                                                           : inside_children == children;
+  const bool raw =
+      node.operation == SolidOperation::unite ? inside_children > 0 : inside_children == children;
   return raw != node.complement;
 }
 
@@ -128,8 +128,8 @@ std::optional<TracedSolid::Boundary> TracedSolid::first_boundary(const Line& ray
     }
     if (node.leaf >= 0) {
       const Leaf& leaf = leaves_[std::size_t(node.leaf)];
-      const Crossings c = crossings(solid_->leaves[std::size_t(node.leaf)], line_of(leaf, ray),
-                                    start, stop);
+      const Crossings c =
+          crossings(solid_->leaves[std::size_t(node.leaf)], line_of(leaf, ray), start, stop);
       walk.inside[at] = c.inside_at_start != node.complement;
       for (int k = 0; k < c.count; ++k) walk.events.push_back({c.t[std::size_t(k)], node.leaf});
     }
@@ -186,8 +186,7 @@ bool TracedSolid::contains(const V3d& point) const {
     const SolidNode& node = solid_->nodes[at];
     if (node.leaf >= 0) {
       const SolidLeaf& leaf = solid_->leaves[std::size_t(node.leaf)];
-      const bool raw =
-          field(leaf, point * leaves_[std::size_t(node.leaf)].to_leaf).value < 0.0;
+      const bool raw = field(leaf, point * leaves_[std::size_t(node.leaf)].to_leaf).value < 0.0;
       return raw != node.complement;
     }
     int children = 0, within = 0;

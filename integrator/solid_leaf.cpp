@@ -185,20 +185,14 @@ Crossings polynomial_crossings(const SolidLeaf& leaf, const Line& line, double s
 }
 
 Crossings torus_crossings(const SolidLeaf& torus, const Line& line, double start, double stop) {
-  Stretch around = sphere_stretch(line, 1.0 + torus.minor_radius);
-  around.cut(line.origin.y, line.direction.y, -torus.minor_radius, torus.minor_radius);
+  // A little wider than the torus, so that the line is surely outside at both ends.
+  constexpr double wider = 1.001;
+  Stretch around = sphere_stretch(line, (1.0 + torus.minor_radius) * wider);
+  const double half_height = torus.minor_radius * wider;
+  around.cut(line.origin.y, line.direction.y, -half_height, half_height);
   const double from = std::max(start, around.first), to = std::min(stop, around.last);
   if (!(from < to)) return {};
-  Crossings result = polynomial_crossings(torus, line, from, to);
-  // At its own bounds the line is outside, whatever rounding says.
-  if (from > start && result.inside_at_start) {
-    std::copy_backward(result.t.begin(), result.t.begin() + result.count,
-                       result.t.begin() + result.count + 1);
-    result.t[0] = from;
-    ++result.count;
-    result.inside_at_start = false;
-  }
-  return result;
+  return polynomial_crossings(torus, line, from, to);
 }
 
 LeafField polynomial_field(const std::vector<PolynomialTerm>& terms, const V3d& p) {

@@ -185,7 +185,7 @@ class TracedScene {
   std::vector<TracedInstance> instances_;
   std::vector<Transforms> transforms_;
   std::vector<TracedSphere> spheres_;
-  std::vector<int> sphere_instances_;             // TracedSphere to Scene::instances
+  std::vector<int> sphere_instances_;  // TracedSphere to Scene::instances
   std::vector<TracedSolid> solids_;
   std::vector<int> solid_instances_;              // likewise
   std::vector<SurfaceParameters> constants_;      // by material, for those that do not vary

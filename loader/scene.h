@@ -160,10 +160,10 @@ constexpr int max_polynomial_degree = 8;  // sum of the powers of one term
 // A primitive that solids are combined from.
 struct SolidLeaf {
   SolidShape shape = SolidShape::sphere;
-  M44d to_solid;             // from the primitive's space to the solid's; affine, invertible
-  double base_radius = 1.0;  // cone, ≥ 0; not both 0
-  double cap_radius = 1.0;   // cone, ≥ 0
-  double minor_radius = 0.25;         // torus, (0, 1)
+  M44d to_solid;               // from the primitive's space to the solid's; affine, invertible
+  double base_radius = 1.0;    // cone, ≥ 0; not both 0
+  double cap_radius = 1.0;     // cone, ≥ 0
+  double minor_radius = 0.25;  // torus, (0, 1)
   std::vector<PolynomialTerm> terms;  // polynomial
   int part = 0;  // which of the solid's instances shows the primitive's share of the surface
 };

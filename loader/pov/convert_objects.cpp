@@ -244,8 +244,7 @@ bool add_solid(Conversion& conversion, const Object& object, const Around& aroun
   }
   if (region.isEmpty()) return true;
   Solid solid = builder.take(region, conversion.reach);
-  if (!fits_tracing(solid) ||
-      placement(solid.bounds, conversion.to_world) != Placement::shown) {
+  if (!fits_tracing(solid) || placement(solid.bounds, conversion.to_world) != Placement::shown) {
     conversion.parser.mention(object.place,
                               "an object without extent, or too far away, is left out");
     return true;

@@ -225,8 +225,8 @@ bool SolidBuilder::add_shape(const Object& object, const M44d& to_scene,
                 : add_leaf(object, to_scene, part, parent, complement);
   }
   const CombinedShape& shape = **combined;
-  const bool united = shape.combination == Combination::union_ ||
-                      shape.combination == Combination::merge;
+  const bool united =
+      shape.combination == Combination::union_ || shape.combination == Combination::merge;
   SolidNode node;
   node.operation = united ? SolidOperation::unite : SolidOperation::intersect;
   node.complement = complement;

@@ -29,7 +29,7 @@ struct Inside {
   std::shared_ptr<const Object> object;
   M44d to_object;
   std::vector<Curve> outline;  // of prisms and lathes
-  std::vector<Inside> parts;    // of combinations
+  std::vector<Inside> parts;   // of combinations
   std::vector<Inside> clips;
 };
 
