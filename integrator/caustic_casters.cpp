@@ -54,6 +54,10 @@ BoundingSphere instance_bounds(const TracedScene& scene, int index) {
     const TracedSphere& s = scene.spheres()[std::size_t(instance.sphere)];
     return {s.center, s.radius};
   }
+  if (instance.solid >= 0) {
+    const Imath::Box3d& box = scene.solids()[std::size_t(instance.solid)].bounds();
+    return {V3f(box.center()), static_cast<float>(box.size().length() * 0.5)};
+  }
   const M44d m = scene.object_to_traced(index);
   V3d low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
   const auto extend = [&](const V3d& p) {

@@ -100,7 +100,7 @@ void Lights::add_instance(int instance) {
   if (material.unlit || mean(material.emission) <= 0.0f) return;
   if (traced.mesh) {
     add_mesh(instance, material);
-  } else {
+  } else if (traced.solid < 0) {
     add_sphere(instance, material);
   }
 }

@@ -58,6 +58,19 @@ SurfacePoint TracedScene::sphere_surface(const TracedSphere& sphere, const V3f& 
   return point;
 }
 
+SurfacePoint TracedScene::solid_surface(const TracedSolid& solid, const RayHit& hit,
+                                        const V3f& origin, const V3f& direction) const {
+  SurfacePoint point;
+  const TracedSolid::Place place =
+      solid.place(static_cast<int>(hit.u), {V3d(origin), V3d(direction)}, hit.distance);
+  const V3f outward = unit_or(V3f(place.outward), -direction);
+  point.position = V3f(place.point);
+  point.error = position_error * static_cast<float>(solid.bounds().size().length() * 0.5);
+  point.error = std::max(point.error, position_error * max_abs(point.position));
+  face(point, outward, outward, direction);
+  return point;
+}
+
 SurfacePoint TracedScene::surface(const RayHit& hit, const V3f& origin,
                                   const V3f& direction) const {
   const int index = instance_of(hit);
@@ -65,6 +78,8 @@ SurfacePoint TracedScene::surface(const RayHit& hit, const V3f& origin,
   SurfacePoint point;
   if (instance.sphere >= 0) {
     point = sphere_surface(spheres_[std::size_t(instance.sphere)], origin, direction, hit.distance);
+  } else if (instance.solid >= 0) {
+    point = solid_surface(solids_[std::size_t(instance.solid)], hit, origin, direction);
   } else if (!instance.mesh) {
     const Transforms& t = transforms_[std::size_t(instance.transform)];
     const V3f object =
@@ -127,6 +142,7 @@ V2f TracedScene::uv(const SurfacePoint& point, int set) const {
     const Imath::Vec3<std::uint32_t>& t = instance.mesh->triangles[point.primitive];
     return uvs[t.x] * (1.0f - point.u - point.v) + uvs[t.y] * point.u + uvs[t.z] * point.v;
   }
+  if (instance.solid >= 0) return V2f(0.0f);
   if (instance.transform >= 0) {
     return sphere_uv(
         unit_or(point.position * transforms_[std::size_t(instance.transform)].traced_to_object,

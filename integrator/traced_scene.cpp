@@ -6,6 +6,7 @@
 
 #include "integrator/opacity.h"
 #include "integrator/render.h"
+#include "integrator/solid_geometry.h"
 
 namespace lumivec {
 namespace {
@@ -87,6 +88,10 @@ Bounds object_bounds(const Scene& scene, const Instance& instance) {
     const double r = scene.spheres[std::size_t(instance.sphere)].radius;
     bounds.extend(V3d(-r));
     bounds.extend(V3d(r));
+  } else if (instance.solid >= 0) {
+    const Imath::Box3d& box = scene.solids[std::size_t(instance.solid)].bounds;
+    bounds.extend(box.min);
+    bounds.extend(box.max);
   } else {
     for (const V3f& p : scene.meshes[std::size_t(instance.mesh)].positions) bounds.extend(V3d(p));
   }
@@ -124,11 +129,14 @@ TracedScene::TracedScene(const Scene& scene, int threads, const Frame* frame) : 
     if (!scene.instances[i].visible) continue;
     if (scene.instances[i].sphere >= 0) {
       add_sphere(instance);
+    } else if (scene.instances[i].solid >= 0) {
+      add_solid(instance);
     } else {
       add_mesh(instance);
     }
   }
   finish_spheres();
+  finish_solids();
   prepare_constants();
   rtcCommitScene(top_.get());
   rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);
@@ -367,9 +375,32 @@ void TracedScene::finish_spheres() {
   attach(geometry, {Slot::Kind::spheres, -1});
 }
 
+void TracedScene::add_solid(int instance) {
+  const Instance& placed = scene_.instances[std::size_t(instance)];
+  TracedInstance& traced = instances_[std::size_t(instance)];
+  traced.material =
+      placed.material >= 0 ? &scene_.materials[std::size_t(placed.material)] : &default_material();
+  traced.mirrored = determinant3(placed.object_to_world) < 0.0;
+  traced.flat_shaded = false;
+  traced.solid = static_cast<int>(solids_.size());
+  solids_.emplace_back(scene_.solids[std::size_t(placed.solid)], placed.solid_part,
+                       object_to_traced(instance));
+  solid_instances_.push_back(instance);
+}
+
+void TracedScene::finish_solids() {
+  if (solids_.empty()) return;
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+  set_solids(geometry, *this);
+  for (const int instance : solid_instances_)
+    has_filters_ = has_filters_ || filtered(*instances_[std::size_t(instance)].material);
+  attach(geometry, {Slot::Kind::solids, -1});
+}
+
 int TracedScene::instance_of(const RayHit& hit) const {
   const unsigned top = hit.instance != RTC_INVALID_GEOMETRY_ID ? hit.instance : hit.geometry;
   const Slot& slot = slots_[top];
+  if (slot.kind == Slot::Kind::solids) return solid_instances_[hit.primitive];
   return slot.kind == Slot::Kind::spheres ? sphere_instances_[hit.primitive] : slot.instance;
 }
 

@@ -3,7 +3,8 @@
 //
 // Meshes that are used once, or are small, are stored in traced space at the top level; others
 // become Embree instances. Spheres under similarity transforms become sphere points (one geometry
-// for all); other spheres, instanced ones. The Scene must outlive this. Immutable after
+// for all); other spheres, instanced ones; solids are one user geometry. The Scene must outlive
+// this. Immutable after
 // construction; all queries may run at once from many threads.
 #pragma once
 
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "integrator/embree_api.h"
+#include "integrator/solid_boundaries.h"
 #include "integrator/surface.h"
 #include "loader/scene.h"
 
@@ -43,7 +45,7 @@ struct TraceQuery {
 
 // What is fixed about one instance.
 struct TracedInstance {
-  const Mesh* mesh = nullptr;     // null: sphere
+  const Mesh* mesh = nullptr;     // null: sphere or solid
   const V3f* vertices = nullptr;  // of the mesh; traced space if flattened, else object space
   const Material* material = nullptr;
   int constant = -1;  // index into the parameters of materials without textures; -1: look them up
@@ -52,6 +54,7 @@ struct TracedInstance {
   bool flat_shaded = true;  // vertex normals are missing or equal to the geometric ones
   int transform = -1;       // index of its Transforms; -1 for similarity spheres
   int sphere = -1;          // index into spheres(), similarity spheres only
+  int solid = -1;           // index into solids()
 };
 
 struct TracedSphere {
@@ -89,6 +92,11 @@ class TracedScene {
 
   const std::vector<TracedInstance>& instances() const { return instances_; }
   const std::vector<TracedSphere>& spheres() const { return spheres_; }
+  // Hits on them have the index here as their primitive, and the leaf as u.
+  const std::vector<TracedSolid>& solids() const { return solids_; }
+  bool solid_has_filter(unsigned solid) const {
+    return filtered(*instances_[std::size_t(solid_instances_[solid])].material);
+  }
   // Index into Scene::instances of what was hit.
   int instance_of(const RayHit& hit) const;
 
@@ -102,7 +110,7 @@ class TracedScene {
   // The side that a hit's surface faces, traced space, not unit, from Embree's normal of the hit.
   V3f outward_normal(int instance, const V3f& embree_normal) const {
     const TracedInstance& i = instances_[std::size_t(instance)];
-    if (i.sphere >= 0) return embree_normal;
+    if (i.sphere >= 0 || i.solid >= 0) return embree_normal;
     if (i.flattened) return i.mirrored ? -embree_normal : embree_normal;
     return embree_normal * transforms_[std::size_t(i.transform)].normal;
   }
@@ -142,7 +150,7 @@ class TracedScene {
   };
   // What a geometry of the top level stands for.
   struct Slot {
-    enum class Kind : std::uint8_t { mesh, spheres, instance } kind = Kind::mesh;
+    enum class Kind : std::uint8_t { mesh, spheres, solids, instance } kind = Kind::mesh;
     int instance = -1;  // mesh, instance
   };
 
@@ -153,12 +161,16 @@ class TracedScene {
   void add_mesh(int instance);
   void add_sphere(int instance);
   void add_instance(int instance, RTCScene base);
+  void add_solid(int instance);
   void finish_spheres();
+  void finish_solids();
   RTCScene base_scene(int mesh);
   RTCGeometry mesh_geometry(const TracedInstance& instance, const V3f* vertices);
   void attach(RTCGeometry geometry, Slot slot);
   void use_filters(RTCGeometry geometry);
   bool filtered(const Material& material) const;
+  SurfacePoint solid_surface(const TracedSolid& solid, const RayHit& hit, const V3f& origin,
+                             const V3f& direction) const;
   SurfacePoint sphere_surface(const TracedSphere& sphere, const V3f& origin, const V3f& direction,
                               float distance) const;
   V3f mapped_normal(const SurfacePoint& point, const TextureMap& map, float scale,
@@ -174,7 +186,9 @@ class TracedScene {
   std::vector<TracedInstance> instances_;
   std::vector<Transforms> transforms_;
   std::vector<TracedSphere> spheres_;
-  std::vector<int> sphere_instances_;             // TracedSphere to Scene::instances
+  std::vector<int> sphere_instances_;  // TracedSphere to Scene::instances
+  std::vector<TracedSolid> solids_;
+  std::vector<int> solid_instances_;              // likewise
   std::vector<SurfaceParameters> constants_;      // by material, for those that do not vary
   std::vector<Slot> slots_;                       // by geometry id of the top level
   std::vector<embree::SceneHandle> base_meshes_;  // by mesh, where instanced

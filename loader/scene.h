@@ -18,6 +18,7 @@
 #include <ImathMatrix.h>
 #include <ImathVec.h>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -170,7 +171,53 @@ struct Sphere {
   float radius = 1.0f;  // scene units, around the origin of object space
 };
 
-// A shape placed in the world. Exactly one of mesh and sphere is set.
+enum class SolidShape : std::uint8_t {
+  box,        // from -1 to 1 along each axis
+  sphere,     // of radius 1 around the origin
+  cone,       // around y from 0, where it has base_radius, to 1, where it has cap_radius; closed
+  torus,      // around y: a ring of radius 1, as thick as minor_radius, < 1
+  polynomial  // where the sum of the terms is below 0; may be infinite
+};
+
+// coefficient · x^powers[0] · y^powers[1] · z^powers[2]
+struct PolynomialTerm {
+  std::array<std::uint8_t, 3> powers{};
+  double coefficient = 0.0;
+};
+constexpr int max_polynomial_degree = 8;  // sum of the powers of one term
+
+// A primitive that solids are combined from.
+struct SolidLeaf {
+  SolidShape shape = SolidShape::sphere;
+  M44d to_solid;               // from the primitive's space to the solid's; affine, invertible
+  double base_radius = 1.0;    // cone, ≥ 0; not both 0
+  double cap_radius = 1.0;     // cone, ≥ 0
+  double minor_radius = 0.25;  // torus, (0, 1)
+  std::vector<PolynomialTerm> terms;  // polynomial
+  int part = 0;  // which of the solid's instances shows the primitive's share of the surface
+};
+
+enum class SolidOperation : std::uint8_t { leaf, unite, intersect };
+
+// One node of the trees of a solid, each stored in preorder.
+struct SolidNode {
+  SolidOperation operation = SolidOperation::leaf;
+  bool complement = false;  // stands for all that is outside of it
+  int parent = -1;          // index into Solid::nodes, less than this one's; -1: a root
+  int leaf = -1;            // index into Solid::leaves
+  int end = 0;              // index behind the last node below this one
+  Imath::Box3d bounds;      // solid's space, around the node before the complement; may be infinite
+};
+
+// An exact combination of primitives (constructive solid geometry). The first root is the solid;
+// of its surface only what lies inside all further roots is there, without new faces.
+struct Solid {
+  std::vector<SolidNode> nodes;
+  std::vector<SolidLeaf> leaves;
+  Imath::Box3d bounds;  // object space, finite, not empty; the surface ends there
+};
+
+// A shape placed in the world. Exactly one of mesh, sphere and solid is set.
 struct Instance {
   std::string name;
   int mesh = -1;         // index into Scene::meshes
@@ -180,6 +227,9 @@ struct Instance {
   M44d object_to_world;  // affine, invertible; may mirror and scale unevenly
   bool visible = true;   // false: an animation has it scaled to nothing or too far away, it is not
                          // to be drawn, and object_to_world is the identity
+  int solid = -1;        // index into Scene::solids; must not emit light
+  int solid_part = 0;    // which leaves' surface is shown: instances share a solid of several
+                         // materials
 };
 
 enum class LightKind : std::uint8_t { point, spot, directional };
@@ -322,6 +372,7 @@ struct Scene {
   std::vector<std::shared_ptr<const SurfacePattern>> patterns;  // none is null
   std::vector<Mesh> meshes;
   std::vector<Sphere> spheres;
+  std::vector<Solid> solids;
   std::vector<Instance> instances;
   std::vector<Light> lights;
   std::vector<Camera> cameras;  // at least one after loading

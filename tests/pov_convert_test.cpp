@@ -2,7 +2,9 @@
 // of the result is finite.
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "integrator/solid_boundaries.h"
 #include "tests/pov_file.h"
 
 namespace {
@@ -33,8 +35,43 @@ double area(const Mesh& mesh) {
   return sum;
 }
 
-double volume(const Scene& scene) {
+struct Passage {
+  V3d point;
+  V3d outward;
+};
+
+// Where a line passes the surfaces of all solids.
+std::vector<Passage> passages(const Scene& scene, const lumivec::Line& line) {
+  std::vector<Passage> found;
+  for (const lumivec::Instance& instance : scene.instances) {
+    if (instance.solid < 0) continue;
+    const lumivec::TracedSolid solid(scene.solids[std::size_t(instance.solid)], instance.solid_part,
+                                     instance.object_to_world);
+    double from = 0.0;
+    while (const auto boundary = solid.first_boundary(line, from, 100.0)) {
+      const auto place = solid.place(boundary->leaf, line, boundary->t);
+      found.push_back({place.point, place.outward});
+      from = boundary->t + 1e-6;
+    }
+  }
+  return found;
+}
+
+// By the lengths within, over a grid that the edges of these tests lie on.
+double volume_of_solids(const Scene& scene) {
+  constexpr int cells = 96;
+  constexpr double reach = 1.5, side = 2.0 * reach / cells;
   double sum = 0.0;
+  for (int i = 0; i < cells * cells; ++i) {
+    const V3d origin((i % cells + 0.5) * side - reach, (i / cells + 0.5) * side - reach, -10.0);
+    for (const Passage& p : passages(scene, {origin, V3d(0.0, 0.0, 1.0)}))
+      sum += (p.outward.z > 0.0 ? p.point.z : -p.point.z) * side * side;
+  }
+  return sum;
+}
+
+double volume(const Scene& scene) {
+  double sum = volume_of_solids(scene);
   for (const Mesh& mesh : scene.meshes) sum += volume(mesh);
   return sum;
 }
@@ -53,18 +90,43 @@ TEST(PovConvert, WhatADifferenceTakesAwayLooksIntoTheHole) {
 
 TEST(PovConvert, ABiteOfASphereLooksOutward) {
   const Scene scene = PovFile("difference { box { -1, 1 } sphere { <0, 1, 0>, 0.5 } }").load();
-  ASSERT_EQ(scene.meshes.size(), 2u);
-  const Mesh& bite = scene.meshes[1];
-  for (std::size_t i = 0; i < bite.positions.size(); ++i) {
-    const V3d from_center = V3d(bite.positions[i]) - V3d(0, 1, 0);
-    ASSERT_LT(from_center.dot(V3d(bite.normals[i])), 0.0);
-  }
+  const auto down = passages(scene, {V3d(0.2, 5.0, 0.1), V3d(0.0, -1.0, 0.0)});
+  ASSERT_EQ(down.size(), 2u);
+  const V3d from_center = down[0].point - V3d(0, 1, 0);
+  EXPECT_NEAR(from_center.length(), 0.5, 1e-9);
+  EXPECT_NEAR(from_center.dot(down[0].outward), -0.5, 1e-9);
+  EXPECT_NEAR(down[1].point.y, -1.0, 1e-9);
+  EXPECT_NEAR(volume(scene), 8.0 - std::numbers::pi / 12.0, 0.01);
 }
 
 TEST(PovConvert, ACutSphereIsCoveredOnce) {
   const Scene scene = PovFile("intersection { sphere { 0, 1 } box { -2, <2, 0, 2> } }").load();
-  ASSERT_FALSE(scene.meshes.empty());
-  EXPECT_NEAR(area(scene.meshes[0]), 2.0 * std::numbers::pi, 0.02);
+  for (int i = 0; i < 20; ++i) {
+    const double x = 0.95 * i / 20.0;
+    const auto up = passages(scene, {V3d(x, -5.0, 0.0), V3d(0.0, 1.0, 0.0)});
+    ASSERT_EQ(up.size(), 2u);
+    EXPECT_NEAR(up[0].point.y, -std::sqrt(1.0 - x * x), 1e-9);
+    EXPECT_LT(up[0].outward.y, 0.0);
+    EXPECT_NEAR(up[1].point.y, 0.0, 1e-9);
+    EXPECT_NEAR(up[1].outward.y, 1.0, 1e-9);
+  }
+}
+
+// What is taken away keeps its own texture on the face that it leaves.
+TEST(PovConvert, ACutFaceLooksLikeWhatCut) {
+  const Scene scene = PovFile(
+                          "difference { box { -1, 1 pigment { rgb <1, 0, 0> } } "
+                          "sphere { <0, 1, 0>, 0.5 pigment { rgb <0, 1, 0> } } }")
+                          .load();
+  ASSERT_EQ(scene.instances.size(), 2u);
+  for (const lumivec::Instance& instance : scene.instances) {
+    const lumivec::TracedSolid solid(scene.solids[std::size_t(instance.solid)], instance.solid_part,
+                                     instance.object_to_world);
+    const auto hit = solid.first_boundary({V3d(0.0, 5.0, 0.0), V3d(0.0, -1.0, 0.0)}, 0.0, 20.0);
+    ASSERT_TRUE(hit);
+    const bool green = scene.materials[std::size_t(instance.material)].base_color.y > 0.0f;
+    EXPECT_NEAR(hit->t, green ? 4.5 : 6.0, 1e-9);
+  }
 }
 
 TEST(PovConvert, InverseTurnsASurface) {

@@ -113,6 +113,14 @@ Imath::Box3d world_bounds(const Scene& scene) {
       bounds.extendBy(centre - reach);
       bounds.extendBy(centre + reach);
     }
+    if (instance.solid >= 0) {
+      const Imath::Box3d& box = scene.solids[std::size_t(instance.solid)].bounds;
+      for (int corner = 0; corner < 8; ++corner) {
+        bounds.extendBy(V3d(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                            corner & 4 ? box.max.z : box.min.z) *
+                        m);
+      }
+    }
     if (instance.mesh < 0) continue;
     for (const V3f& p : scene.meshes[std::size_t(instance.mesh)].positions) {
       V3d world;

@@ -6,6 +6,7 @@
 #include "loader/placement.h"
 #include "loader/pov/bounds.h"
 #include "loader/pov/conversion.h"
+#include "loader/pov/exact_solids.h"
 #include "loader/pov/finiteness.h"
 #include "loader/pov/solids.h"
 #include "loader/pov/surfaces.h"
@@ -229,9 +230,84 @@ void add_cut_surface(Conversion& conversion, const Object& object, const Around&
   add_mesh(conversion, object, around, *surface, conversion.to_world);
 }
 
+// Boxes and planes as they are need no solid, and spheres have a form of their own.
+bool wants_solid(const Shape& shape, bool clipped) {
+  if (const auto* combined = std::get_if<std::shared_ptr<const CombinedShape>>(&shape))
+    return (*combined)->combination != Combination::union_;
+  if (std::holds_alternative<SphereShape>(shape) || std::holds_alternative<BoxShape>(shape) ||
+      std::holds_alternative<PlaneShape>(shape))
+    return clipped;
+  return std::holds_alternative<ConeShape>(shape) || std::holds_alternative<TorusShape>(shape) ||
+         std::holds_alternative<std::shared_ptr<const QuadricShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const PolyShape>>(shape);
+}
+
+bool fits_tracing(const Solid& solid) {
+  return !solid.bounds.isEmpty() && fits_float(solid.bounds.min) && fits_float(solid.bounds.max);
+}
+
+// False: the object has no exact form, or gives light, which only triangles do.
+bool add_solid(Conversion& conversion, const Object& object, const Around& around) {
+  if (around.lamp || !wants_solid(object.shape, !around.clips.empty())) return false;
+  std::vector<int> materials;  // by part
+  SolidBuilder builder([&](const Object& leaf, const SolidAppearance& appearance) {
+    Around own = around;
+    own.texture = appearance.texture;
+    own.interior = appearance.interior;
+    const int material = material_of(conversion, leaf, own);
+    if (conversion.out.materials[static_cast<std::size_t>(material)].emission != Color(0.0f))
+      return -1;
+    const auto known = std::find(materials.begin(), materials.end(), material);
+    const auto part = static_cast<int>(known - materials.begin());
+    if (known == materials.end()) materials.push_back(material);
+    return part;
+  });
+  if (!builder.add_surface(object, around.transform, {around.texture, around.interior},
+                           around.inside_out))
+    return false;
+  Object in_scene = object;
+  in_scene.transform = std::make_shared<const M44d>(around.transform);
+  in_scene.extras = nullptr;
+  in_scene.inverse = false;
+  Imath::Box3d region = bounds_of(in_scene);
+  const auto keep = [&](const Imath::Box3d& box) {
+    for (int i = 0; i < 3; ++i) {
+      region.min[i] = std::max(region.min[i], box.min[i]);
+      region.max[i] = std::min(region.max[i], box.max[i]);
+    }
+  };
+  keep(around.bounds);
+  for (const auto& clip : around.clips) {
+    if (!builder.add_clip(*clip)) return false;
+    if (clip->inside()) keep(clip->bounds());
+  }
+  if (region.isEmpty()) return true;
+  Solid solid = builder.take(region, conversion.reach);
+  if (!fits_tracing(solid) || placement(solid.bounds, conversion.to_world) != Placement::shown) {
+    conversion.parser.mention(object.place,
+                              "an object without extent, or too far away, is left out");
+    return true;
+  }
+  std::size_t bytes = sizeof(Solid) + materials.size() * sizeof(Instance) +
+                      solid.nodes.size() * sizeof(SolidNode) +
+                      solid.leaves.size() * sizeof(SolidLeaf);
+  for (const SolidLeaf& leaf : solid.leaves) bytes += leaf.terms.size() * sizeof(PolynomialTerm);
+  conversion.parser.claim(bytes);
+  for (std::size_t part = 0; part < materials.size(); ++part) {
+    Instance instance;
+    instance.solid = static_cast<int>(conversion.out.solids.size());
+    instance.solid_part = static_cast<int>(part);
+    instance.material = materials[part];
+    instance.object_to_world = conversion.to_world;
+    conversion.out.instances.push_back(std::move(instance));
+  }
+  conversion.out.solids.push_back(std::move(solid));
+  return true;
+}
+
 std::shared_ptr<const Clip> make_clip(Parser& parser, const std::shared_ptr<const Object>& object,
                                       const M44d& around, bool inside) {
-  parser.claim(object->measure.count * sizeof(Solid));
+  parser.claim(object->measure.count * sizeof(Inside));
   return std::make_shared<const Clip>(object, around, inside);
 }
 
@@ -345,6 +421,7 @@ void check_size(Parser& parser, const Object& object) {
 
 // The object's own texture, transform and the like are in what is around its shape.
 void convert_shape(Conversion& conversion, const Object& object, const Around& around) {
+  if (add_solid(conversion, object, around)) return;
   if (const auto* combined = std::get_if<std::shared_ptr<const CombinedShape>>(&object.shape))
     return convert_parts(conversion, **combined, around);
   if (const auto* field = std::get_if<std::shared_ptr<const HeightFieldShape>>(&object.shape);

@@ -165,7 +165,7 @@ std::optional<Mesh> whole_surface(const Shape& shape, const M44d& to_scene, cons
 
 }  // namespace
 
-Solid::Solid(std::shared_ptr<const Object> of, const M44d& around) : object(std::move(of)) {
+Inside::Inside(std::shared_ptr<const Object> of, const M44d& around) : object(std::move(of)) {
   const M44d to_scene = object->transform ? *object->transform * around : around;
   to_object = to_scene.inverse();
   if (const auto* combined = std::get_if<std::shared_ptr<const CombinedShape>>(&object->shape)) {
@@ -178,8 +178,8 @@ Solid::Solid(std::shared_ptr<const Object> of, const M44d& around) : object(std:
   }
 }
 
-bool Solid::contains(const V3d& point) const {
-  const auto within = [&](const Solid& part) { return part.contains(point); };
+bool Inside::contains(const V3d& point) const {
+  const auto within = [&](const Inside& part) { return part.contains(point); };
   bool inside = false;
   if (const auto* combined = std::get_if<std::shared_ptr<const CombinedShape>>(&object->shape)) {
     switch ((*combined)->combination) {
@@ -203,7 +203,7 @@ bool Solid::contains(const V3d& point) const {
 }
 
 Clip::Clip(std::shared_ptr<const Object> object, const M44d& around, bool inside)
-    : solid_(std::move(object), around), inside_(inside) {
+    : solid_(std::move(object), around), around_(around), inside_(inside) {
   bounds_ = transformed(bounds_of(*solid_.object), around);
   if (!bounds_.isEmpty()) bounds_ = widened(bounds_);
 }

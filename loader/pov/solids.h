@@ -1,6 +1,6 @@
 // Insides of shapes, and surfaces that others cut: intersections, differences, clipped_by.
 //
-// Surfaces are cut as triangles. Exact ray intervals can take the place of this file.
+// Surfaces without an exact form (exact_solids.h) are cut as triangles.
 #pragma once
 
 #include <ImathBox.h>
@@ -20,8 +20,8 @@ std::optional<double> shape_field(const Shape& shape, const V3d& point,
 std::vector<Curve> outline_of(const Shape& shape);
 
 // An object as its inside, with what is needed to ask many points.
-struct Solid {
-  Solid(std::shared_ptr<const Object> of, const M44d& around);
+struct Inside {
+  Inside(std::shared_ptr<const Object> of, const M44d& around);
 
   // In the space that the object stands in, times around.
   bool contains(const V3d& point) const;
@@ -29,8 +29,8 @@ struct Solid {
   std::shared_ptr<const Object> object;
   M44d to_object;
   std::vector<Curve> outline;  // of prisms and lathes
-  std::vector<Solid> parts;    // of combinations
-  std::vector<Solid> clips;
+  std::vector<Inside> parts;   // of combinations
+  std::vector<Inside> clips;
 };
 
 // An object that keeps only what is inside, or outside, of it.
@@ -43,9 +43,12 @@ class Clip {
   // Of what is not all kept or all dropped; in the scene's coordinates.
   const Imath::Box3d& bounds() const { return bounds_; }
   bool inside() const { return inside_; }
+  const Object& object() const { return *solid_.object; }
+  const M44d& around() const { return around_; }
 
  private:
-  Solid solid_;
+  Inside solid_;
+  M44d around_;
   Imath::Box3d bounds_;
   bool inside_;
 };

@@ -1,0 +1,280 @@
+#include "loader/pov/exact_solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "loader/pov/bounds.h"
+#include "loader/transforms.h"
+
+namespace lumivec::pov {
+namespace {
+
+using Imath::Box3d;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Box3d everywhere() {
+  return {V3d(-infinity), V3d(infinity)};
+}
+
+Box3d overlap(const Box3d& a, const Box3d& b) {
+  Box3d box;
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = std::max(a.min[i], b.min[i]);
+    box.max[i] = std::min(a.max[i], b.max[i]);
+  }
+  return box;
+}
+
+// Bounds of infinite objects end a little before this.
+bool has_end(const Box3d& box) {
+  constexpr double almost = 0.1 * beyond_all;
+  for (int i = 0; i < 3; ++i) {
+    if (box.min[i] < -almost || box.max[i] > almost) return false;
+  }
+  return !box.isEmpty();
+}
+
+M44d frame(const V3d& x, const V3d& y, const V3d& z, const V3d& origin) {
+  M44d m;
+  for (int i = 0; i < 3; ++i) {
+    m[0][i] = x[i];
+    m[1][i] = y[i];
+    m[2][i] = z[i];
+    m[3][i] = origin[i];
+  }
+  return m;
+}
+
+M44d scaled(const V3d& scale, const V3d& center) {
+  return frame(V3d(scale.x, 0, 0), V3d(0, scale.y, 0), V3d(0, 0, scale.z), center);
+}
+
+// From a unit cone's axis to the cone's.
+M44d cone_frame(const ConeShape& cone) {
+  const V3d axis = cone.cap - cone.base;
+  int least = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(axis[i]) < std::abs(axis[least])) least = i;
+  }
+  V3d other(0.0);
+  other[least] = 1.0;
+  const V3d x = axis.cross(other).normalized();
+  return frame(x, axis, x.cross(axis).normalized(), cone.base);
+}
+
+// The form of a primitive; the transform to the shape's own space. False: it has none.
+struct LeafOf {
+  SolidLeaf& leaf;
+
+  bool operator()(const SphereShape& s) const {
+    leaf.shape = SolidShape::sphere;
+    leaf.to_solid = scaled(V3d(std::abs(s.radius)), s.center);
+    return true;
+  }
+  bool operator()(const BoxShape& b) const {
+    leaf.shape = SolidShape::box;
+    leaf.to_solid = scaled((b.high - b.low) * 0.5, (b.high + b.low) * 0.5);
+    return true;
+  }
+  bool operator()(const PlaneShape& s) const {
+    leaf.shape = SolidShape::polynomial;
+    add(1, 0, 0, s.normal.x);
+    add(0, 1, 0, s.normal.y);
+    add(0, 0, 1, s.normal.z);
+    add(0, 0, 0, -s.distance);
+    return true;
+  }
+  bool operator()(const ConeShape& c) const {
+    if (c.base_radius < 0.0 || c.cap_radius < 0.0 || c.base_radius + c.cap_radius == 0.0)
+      return false;
+    leaf.shape = SolidShape::cone;
+    leaf.base_radius = c.base_radius;
+    leaf.cap_radius = c.cap_radius;
+    leaf.to_solid = cone_frame(c);
+    return true;
+  }
+  bool operator()(const TorusShape& t) const {
+    const double major = std::abs(t.major), minor = std::abs(t.minor);
+    if (minor == 0.0 || !(minor < major)) return false;
+    leaf.shape = SolidShape::torus;
+    leaf.minor_radius = minor / major;
+    leaf.to_solid = scaled(V3d(major), V3d(0.0));
+    return true;
+  }
+  bool operator()(const std::shared_ptr<const QuadricShape>& q) const {
+    leaf.shape = SolidShape::polynomial;
+    add(2, 0, 0, q->squares.x);
+    add(0, 2, 0, q->squares.y);
+    add(0, 0, 2, q->squares.z);
+    add(1, 1, 0, q->mixed.x);
+    add(1, 0, 1, q->mixed.y);
+    add(0, 1, 1, q->mixed.z);
+    add(1, 0, 0, q->linear.x);
+    add(0, 1, 0, q->linear.y);
+    add(0, 0, 1, q->linear.z);
+    add(0, 0, 0, q->constant);
+    return !leaf.terms.empty();
+  }
+  bool operator()(const std::shared_ptr<const PolyShape>& s) const {
+    if (s->order > max_polynomial_degree) return false;
+    leaf.shape = SolidShape::polynomial;
+    std::size_t next = 0;
+    for (int i = s->order; i >= 0; --i) {
+      for (int j = s->order - i; j >= 0; --j) {
+        for (int k = s->order - i - j; k >= 0; --k) add(i, j, k, s->coefficients[next++]);
+      }
+    }
+    return !leaf.terms.empty();
+  }
+  template <class Other>
+  bool operator()(const Other&) const {
+    return false;
+  }
+
+  void add(int x, int y, int z, double coefficient) const {
+    if (coefficient == 0.0) return;
+    const auto power = [](int n) { return static_cast<std::uint8_t>(n); };
+    leaf.terms.push_back({{power(x), power(y), power(z)}, coefficient});
+  }
+};
+
+bool is_clipped(const Object& object) {
+  return object.extras && (!object.extras->clipped_by.empty() || object.extras->clipped_by_bounds);
+}
+
+}  // namespace
+
+int SolidBuilder::add_node(const SolidNode& node) {
+  solid_.nodes.push_back(node);
+  const auto at = static_cast<int>(solid_.nodes.size()) - 1;
+  solid_.nodes.back().end = at + 1;
+  return at;
+}
+
+bool SolidBuilder::add_leaf(const Object& object, const M44d& to_scene, int part, int parent,
+                            bool complement) {
+  SolidLeaf leaf;
+  leaf.part = part;
+  if (!std::visit(LeafOf{leaf}, object.shape)) return false;
+  leaf.to_solid = leaf.to_solid * to_scene;
+  if (!is_invertible(leaf.to_solid)) return false;
+  Object bare;
+  bare.shape = object.shape;
+  bare.transform = std::make_shared<const M44d>(to_scene);
+  SolidNode node;
+  node.complement = complement;
+  node.parent = parent;
+  node.leaf = static_cast<int>(solid_.leaves.size());
+  node.bounds = bounds_of(bare);
+  if (!has_end(node.bounds)) node.bounds = everywhere();
+  solid_.leaves.push_back(std::move(leaf));
+  add_node(node);
+  return true;
+}
+
+// The endless cone, of which only the surface between the ends is there.
+bool SolidBuilder::add_open_cone(const Object& object, const ConeShape& cone, const M44d& to_scene,
+                                 int part, bool complement) {
+  if (!add_leaf(object, to_scene, part, -1, complement)) return false;
+  SolidLeaf& side = solid_.leaves.back();
+  const double slope = cone.cap_radius - cone.base_radius;
+  side.shape = SolidShape::polynomial;
+  const LeafOf terms{side};
+  terms.add(2, 0, 0, 1.0);
+  terms.add(0, 0, 2, 1.0);
+  terms.add(0, 2, 0, -slope * slope);
+  terms.add(0, 1, 0, -2.0 * slope * cone.base_radius);
+  terms.add(0, 0, 0, -cone.base_radius * cone.base_radius);
+  solid_.nodes.back().bounds = everywhere();
+  SolidLeaf between;
+  between.shape = SolidShape::polynomial;
+  between.to_solid = side.to_solid;
+  between.part = part;
+  between.terms = {{{0, 2, 0}, 1.0}, {{0, 1, 0}, -1.0}};
+  SolidNode node;
+  node.leaf = static_cast<int>(solid_.leaves.size());
+  node.bounds = everywhere();
+  solid_.leaves.push_back(std::move(between));
+  add_node(node);
+  return true;
+}
+
+bool SolidBuilder::add_object(const Object& object, const M44d& around,
+                              const SolidAppearance& appearance, int parent, bool complement) {
+  if (is_clipped(object)) return false;
+  SolidAppearance own = appearance;
+  if (object.texture) own.texture = object.texture;
+  if (object.interior) own.interior = object.interior;
+  return add_shape(object, object.transform ? *object.transform * around : around, own, parent,
+                   complement != object.inverse);
+}
+
+bool SolidBuilder::add_shape(const Object& object, const M44d& to_scene,
+                             const SolidAppearance& appearance, int parent, bool complement) {
+  const auto* combined = std::get_if<std::shared_ptr<const CombinedShape>>(&object.shape);
+  if (!combined) {
+    const auto* cone = std::get_if<ConeShape>(&object.shape);
+    const bool open = cone && cone->open;
+    if (open && parent >= 0) return false;
+    const int part = part_of_(object, appearance);
+    if (part < 0) return false;
+    return open ? add_open_cone(object, *cone, to_scene, part, complement)
+                : add_leaf(object, to_scene, part, parent, complement);
+  }
+  const CombinedShape& shape = **combined;
+  const bool united =
+      shape.combination == Combination::union_ || shape.combination == Combination::merge;
+  SolidNode node;
+  node.operation = united ? SolidOperation::unite : SolidOperation::intersect;
+  node.complement = complement;
+  node.parent = parent;
+  const int at = add_node(node);
+  Box3d bounds = united ? Box3d() : everywhere();
+  for (std::size_t i = 0; i < shape.parts.size(); ++i) {
+    const bool taken_away = shape.combination == Combination::difference && i > 0;
+    const std::size_t child = solid_.nodes.size();
+    if (!add_object(*shape.parts[i], to_scene, appearance, at, taken_away)) return false;
+    const SolidNode& added = solid_.nodes[child];
+    const Box3d around = added.complement ? everywhere() : added.bounds;
+    if (united) {
+      bounds.extendBy(around);
+    } else {
+      bounds = overlap(bounds, around);
+    }
+  }
+  SolidNode& done = solid_.nodes[static_cast<std::size_t>(at)];
+  done.bounds = has_end(bounds) ? bounds : everywhere();
+  done.end = static_cast<int>(solid_.nodes.size());
+  return !shape.parts.empty();
+}
+
+bool SolidBuilder::add_surface(const Object& object, const M44d& to_scene,
+                               const SolidAppearance& appearance, bool inside_out) {
+  return add_shape(object, to_scene, appearance, -1, inside_out);
+}
+
+bool SolidBuilder::add_clip(const Clip& clip) {
+  const Object& object = clip.object();
+  // As a root an open cone would stand for two.
+  const auto* cone = std::get_if<ConeShape>(&object.shape);
+  if (cone && cone->open) return false;
+  const PartOf part_of = std::exchange(part_of_, [](const auto&, const auto&) { return 0; });
+  const bool added = add_object(object, clip.around(), {}, -1, !clip.inside());
+  part_of_ = part_of;
+  return added;
+}
+
+Solid SolidBuilder::take(Box3d bounds, double reach) {
+  const bool ends = has_end(bounds);
+  for (int i = 0; i < 3 && !ends; ++i) {
+    bounds.min[i] = std::max(bounds.min[i], -reach);
+    bounds.max[i] = std::min(bounds.max[i], reach);
+  }
+  solid_.bounds = bounds;
+  return std::move(solid_);
+}
+
+}  // namespace lumivec::pov
