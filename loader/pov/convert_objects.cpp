@@ -249,22 +249,6 @@ bool fits_tracing(const Solid& solid) {
 // False: the object has no exact form, or gives light, which only triangles do.
 bool add_solid(Conversion& conversion, const Object& object, const Around& around) {
   if (around.lamp || !wants_solid(object.shape, !around.clips.empty())) return false;
-  std::vector<int> materials;  // by part
-  SolidBuilder builder([&](const Object& leaf, const SolidAppearance& appearance) {
-    Around own = around;
-    own.texture = appearance.texture;
-    own.interior = appearance.interior;
-    const int material = material_of(conversion, leaf, own);
-    if (conversion.out.materials[static_cast<std::size_t>(material)].emission != Color(0.0f))
-      return -1;
-    const auto known = std::find(materials.begin(), materials.end(), material);
-    const auto part = static_cast<int>(known - materials.begin());
-    if (known == materials.end()) materials.push_back(material);
-    return part;
-  });
-  if (!builder.add_surface(object, around.transform, {around.texture, around.interior},
-                           around.inside_out))
-    return false;
   Object in_scene = object;
   in_scene.transform = std::make_shared<const M44d>(around.transform);
   in_scene.extras = nullptr;
@@ -278,8 +262,29 @@ bool add_solid(Conversion& conversion, const Object& object, const Around& aroun
   };
   keep(around.bounds);
   for (const auto& clip : around.clips) {
-    if (!builder.add_clip(*clip)) return false;
     if (clip->inside()) keep(clip->bounds());
+  }
+  std::vector<int> materials;  // by part
+  SolidBuilder builder([&](const Object& leaf, const SolidAppearance& appearance) {
+    Around own = around;
+    own.texture = appearance.texture;
+    own.texture_transform = appearance.texture_transform;
+    own.interior = appearance.interior;
+    const int material =
+        material_of(conversion, leaf, own, Imath::transform(region, conversion.to_world));
+    if (conversion.out.materials[static_cast<std::size_t>(material)].emission != Color(0.0f))
+      return -1;
+    const auto known = std::find(materials.begin(), materials.end(), material);
+    const auto part = static_cast<int>(known - materials.begin());
+    if (known == materials.end()) materials.push_back(material);
+    return part;
+  });
+  if (!builder.add_surface(object, around.transform,
+                           {around.texture, around.texture_transform, around.interior},
+                           around.inside_out))
+    return false;
+  for (const auto& clip : around.clips) {
+    if (!builder.add_clip(*clip)) return false;
   }
   if (region.isEmpty()) return true;
   Solid solid = builder.take(region, conversion.reach);

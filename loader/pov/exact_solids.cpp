@@ -206,10 +206,14 @@ bool SolidBuilder::add_object(const Object& object, const M44d& around,
                               const SolidAppearance& appearance, int parent, bool complement) {
   if (is_clipped(object)) return false;
   SolidAppearance own = appearance;
-  if (object.texture) own.texture = object.texture;
+  const M44d to_scene = object.transform ? *object.transform * around : around;
+  if (object.texture) {
+    own.texture = object.texture;
+    own.texture_transform =
+        object.texture_transform ? *object.texture_transform * around : to_scene;
+  }
   if (object.interior) own.interior = object.interior;
-  return add_shape(object, object.transform ? *object.transform * around : around, own, parent,
-                   complement != object.inverse);
+  return add_shape(object, to_scene, own, parent, complement != object.inverse);
 }
 
 bool SolidBuilder::add_shape(const Object& object, const M44d& to_scene,

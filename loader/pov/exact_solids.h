@@ -11,6 +11,7 @@ namespace lumivec::pov {
 // What a part of a combination looks like, with what it takes from those around it.
 struct SolidAppearance {
   std::shared_ptr<const Texture> texture;
+  M44d texture_transform;  // of the texture, to the scene's coordinates
   std::shared_ptr<const Interior> interior;
 };
 

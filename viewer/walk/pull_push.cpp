@@ -1,6 +1,5 @@
 #include "viewer/walk/pull_push.h"
 
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
