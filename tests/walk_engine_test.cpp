@@ -141,6 +141,29 @@ TEST(walk_engine, edges_stay_exact_while_the_eye_moves) {
   }
 }
 
+// At rest edges become smooth; when the eye goes on, what their pixels mixed stays on no surface.
+TEST(walk_engine, smooth_edges_leave_no_dots_behind) {
+  constexpr int size = 48;
+  Scene scene;
+  add_mesh(scene, quad({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}), emitter(Color(1, 0, 0), true));
+  add_mesh(scene, quad({-0.5f, -0.4f, 0}, {1, 0.2f, 0}, {-0.2f, 1, 0}),
+           emitter(Color(0, 1, 0), true));
+  const Camera camera = perspective_camera({0, 0, 4}, {0, 0, 0}, 0.6);
+  const std::vector<Camera> path =
+      camera_path(parse_camera_path("--path", "orbit:24"), camera, V3d(0.0), 13);
+  constexpr std::uint32_t shown = 1u << unsigned(Term::emitted);
+  WalkEngine engine(scene, walk_settings(size), {Reuse::shading, false});
+  std::vector<Color> picture;
+  for (int i = 0; i < 16; ++i) engine.advance(path[0], long_frame, shown, picture);
+  const auto is_mixed = [](const Color& c) { return c.x > 0.02f && c.y > 0.02f; };
+  EXPECT_GT(std::count_if(picture.begin(), picture.end(), is_mixed), size / 2)
+      << "edges are not smooth";
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    engine.advance(path[i], 1e-6, shown, picture);
+    EXPECT_EQ(std::count_if(picture.begin(), picture.end(), is_mixed), 0) << "in frame " << i;
+  }
+}
+
 // What a mirror shows moves over it with the eye, and is not carried along with the mirror.
 TEST(walk_engine, reflections_move_with_the_eye) {
   constexpr int size = 64;

@@ -113,6 +113,7 @@ void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
   ++frame_;
   spread_urgency();
   std::swap(shades_, last_shades_);
+  find_mixed(visibility.last());
   const Reprojection reprojection(tracer.view(0), visibility.now(), tracer.view(1),
                                   visibility.last(), width_, height_);
   curvatures_.resize(tracer.instance_count());
@@ -144,10 +145,11 @@ void ShadingCache::see_projected(const Visibility& visibility) {
   ++frame_;
   spread_urgency();
   std::swap(shades_, last_shades_);
+  find_mixed(visibility.last());
   for_each_row(height_, [&](int y) {
     for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) {
       const std::uint32_t source = visibility.source(i);
-      if (source == Visibility::no_source) {
+      if (source == Visibility::no_source || is_mixed(source)) {
         shades_.clear(i);
         continue;
       }
@@ -172,6 +174,7 @@ void ShadingCache::clear(const std::vector<std::uint32_t>& pixels) {
 
 void ShadingCache::rest() {
   ++frame_;
+  rested_ = true;
   spread_urgency();
   share_noise();
   for_each_row(height_, [&](int y) { grow_older(y); });
@@ -215,7 +218,7 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
       for (std::size_t tap = 0; tap < 4; ++tap) {
         const auto index = static_cast<std::size_t>(taps.pixel[tap][i]);
         const Shade& from = last_shades_.shade[index];
-        const float w = from.samples() > 0.0f ? taps.weight[tap][i] : 0.0f;
+        const float w = from.samples() > 0.0f && !is_mixed(index) ? taps.weight[tap][i] : 0.0f;
         total += w;
         low = madd(vfloat8(w), vfloat8(from.lanes.data()), low);
         high = madd(vfloat8(w), vfloat8(from.lanes.data() + Reprojection::lanes), high);
@@ -244,6 +247,26 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
     follow_mirror(reprojection, left + static_cast<int>(i), y, visibility);
     shades_.age[pixel] = static_cast<std::uint16_t>(age * scale);
   }
+}
+
+void ShadingCache::find_mixed(const VisibleSurfaces& seen) {
+  mixed_.clear();
+  if (!rested_) return;
+  rested_ = false;
+  mixed_.assign(seen.size(), 0);
+  const auto differ = [&](std::size_t a, std::size_t b) {
+    return seen.object[a] != seen.object[b] ||
+           (seen.object[a] >= 0 && !normals_alike(seen.normal[a], seen.normal[b]));
+  };
+  for_each_row(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t i = at(x, y);
+      const bool edge = (x > 0 && differ(i, i - 1)) || (x + 1 < width_ && differ(i, i + 1)) ||
+                        (y > 0 && differ(i, at(x, y - 1))) ||
+                        (y + 1 < height_ && differ(i, at(x, y + 1)));
+      mixed_[i] = edge ? 1 : 0;
+    }
+  });
 }
 
 // What a mirror shows, from where the last view saw it.
@@ -278,7 +301,7 @@ void ShadingCache::follow_mirror(const Reprojection& reprojection, int x, int y,
       const std::size_t index = at(tx, ty);
       const Shade& from = last_shades_.shade[index];
       if (visibility.last().object[index] != object || !(from.samples() > 0.0f) ||
-          last_shades_.mirrored[index] < 0.0f) {
+          last_shades_.mirrored[index] < 0.0f || is_mixed(index)) {
         continue;
       }
       const float w = (tap % 2 == 0 ? 1.0f - ax : ax) * (tap / 2 == 0 ? 1.0f - ay : ay);

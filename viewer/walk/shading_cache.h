@@ -87,6 +87,11 @@ class ShadingCache {
              (specular_samples.size() + noise.size()) * sizeof(float);
     }
   };
+  // Of a view that rested, the pixels that edges go through: their samples, which were spread over
+  // them, are of more than one surface. Empty: of one that moved.
+  std::vector<std::uint8_t> mixed_;
+  bool rested_ = false;
+
   // Curvatures of what is seen, by instance.
   std::vector<float> curvatures_;
 
@@ -101,6 +106,8 @@ class ShadingCache {
                   const Visibility& visibility, std::vector<std::uint32_t>& doubtful);
   void follow_mirror(const class Reprojection& reprojection, int x, int y,
                      const Visibility& visibility);
+  void find_mixed(const VisibleSurfaces& seen);
+  bool is_mixed(std::size_t pixel) const { return !mixed_.empty() && mixed_[pixel] != 0; }
   void grow_older(int y);
   void spread_urgency();
   void share_noise();
