@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "integrator/render.h"
+#include "tests/png_bytes.h"
 #include "tests/pov_file.h"
 
 namespace {
@@ -94,6 +95,76 @@ TEST(PovPattern, AnExactSphereShowsItsPattern) {
   const Framebuffer ellipsoid = see(sphere + "scale <1, 0.5, 1> }");
   expect_color(at(ellipsoid, -1.1, 0.4), red, "left, squeezed");
   expect_color(at(ellipsoid, 1.1, 0.4), green, "right, squeezed");
+}
+
+// Two by two pixels: red and green above, grey and nothing below.
+std::string quarters() {
+  return PngBytes(2, 2, 8, 6,
+                  {{231, 89, 89, 255, 89, 231, 89, 255}, {188, 188, 188, 255, 0, 0, 0, 0}})
+      .file;
+}
+// What these bytes mean (IEC 61966-2-1).
+const Color grey(0.503f);
+
+TEST(PovPattern, APictureLiesInTheUnitSquareAndIsRepeated) {
+  PovFile file(around +
+               "plane { -z, 0 pigment { image_map { png \"p.png\" } scale 2 } } "
+               "plane { -z, -1 pigment { rgb 0 } }");
+  file.write("p.png", quarters());
+  const Framebuffer picture = see(file.load());
+  EXPECT_FALSE(file.warns("average color"));
+  for (const double x : {-4.0, 0.0, 2.0}) {
+    expect_color(at(picture, x + 0.6, 1.6), red, "upper left");
+    expect_color(at(picture, x + 1.6, 1.6), green, "upper right");
+    expect_color(at(picture, x + 0.6, 0.6), grey, "lower left");
+    expect_color(at(picture, x + 1.6, 0.6), Color(0.0f), "what is behind the clear quarter");
+    expect_color(at(picture, x + 0.6, -0.4), red, "below, upper left");
+  }
+}
+
+TEST(PovPattern, PicturesAreShownOnceAndBlendedWhereAsked) {
+  PovFile once(around +
+               "plane { -z, 0 pigment { image_map { png \"p.png\" once } scale 2 } } "
+               "plane { -z, -1 pigment { rgb 0 } }");
+  once.write("p.png", quarters());
+  const Framebuffer picture = see(once.load());
+  expect_color(at(picture, 0.6, 1.6), red, "inside");
+  expect_color(at(picture, 2.6, 1.6), Color(0.0f), "outside");
+  PovFile blended(around +
+                  "plane { -z, 0 pigment { image_map { png \"p.png\" interpolate 2 } scale 8 } }");
+  blended.write("p.png", PngBytes(2, 1, 8, 0, {{0, 188}}).file);
+  const Framebuffer smooth = see(blended.load());
+  expect_color(at(smooth, 2.1, 0.1), Color(0.0f), "middle of the black pixel");
+  expect_color(at(smooth, 3.9, 0.1), Color(0.5f * 0.503f), "half way");
+}
+
+TEST(PovPattern, APictureGoesAroundASphereFromXTowardZ) {
+  PovFile file(around +
+               "sphere { 0, 1 pigment { image_map { png \"p.png\" map_type 1 } } scale 3 }");
+  file.write("p.png", PngBytes(4, 1, 8, 0, {{0, 89, 188, 231}}).file);
+  const Framebuffer picture = see(file.load());
+  EXPECT_FALSE(file.warns("average color"));
+  // The eye looks along z: it sees the third and the fourth quarter of the turn.
+  expect_color(at(picture, -1.1, 0.4), grey, "left");
+  expect_color(at(picture, 1.1, 0.4), Color(0.8f), "right");
+}
+
+TEST(PovPattern, APicturesNumbersAreLightByItsGammaAndTheScenes) {
+  const std::string scene =
+      "background { rgb 1 } #default { finish { diffuse 1 ambient 0 } } camera { orthographic "
+      "location <0, 0, -10> look_at 0 right 8*x up 8*y } plane { -z, 0 pigment { image_map { png "
+      "\"p.png\" gamma 2 } } }";
+  for (const char* gamma : {"1", "2.2"}) {
+    PovFile file("global_settings { assumed_gamma " + std::string(gamma) + " } " + scene);
+    file.write("p.png", PngBytes(1, 1, 8, 0, {{128}}).file);
+    expect_color(at(see(file.load()), 0.6, 0.6), Color(0.252f), gamma);
+  }
+}
+
+TEST(PovPattern, APictureThatIsNotThereIsMentioned) {
+  PovFile file(around + "plane { -z, 0 pigment { image_map { png \"none.png\" } } }");
+  file.load();
+  EXPECT_TRUE(file.warns("none.png"));
 }
 
 TEST(PovPattern, WhatAPatternTransmitsShowsWhatLiesBehind) {

@@ -44,6 +44,8 @@ struct PatternStep {
   std::vector<double> numbers;
 };
 
+struct MapPicture;
+
 struct ImageUse {
   std::string file;
   std::uint32_t named_in = 0;  // the source that names it
@@ -55,6 +57,7 @@ struct ImageUse {
   bool use_index = false;
   std::vector<std::pair<int, double>> filter;    // by palette index, -1: all
   std::vector<std::pair<int, double>> transmit;  // likewise
+  std::shared_ptr<const MapPicture> picture;     // of image maps (image_maps.h); null: none
 };
 
 // A number, mostly in [0, 1], for each point of space.

@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "loader/load_scene.h"
@@ -108,6 +109,10 @@ class Parser {
   std::map<std::string, std::uint32_t, std::less<>> mentioned;  // and how often; bounded
   std::vector<std::uint32_t> random_states;                     // of seed()
   std::uint32_t nesting = 0;
+  // Of image maps, by file, the source that names it, its gamma and the scene's.
+  std::map<std::tuple<std::string, std::uint32_t, double, double>,
+           std::shared_ptr<const MapPicture>>
+      pictures;
   std::vector<Slot> arguments;  // of the macro calls that are being read
 
  private:

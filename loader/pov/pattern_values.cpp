@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "loader/pov/functions.h"
+#include "loader/pov/image_maps.h"
 #include "loader/pov/noise.h"
 
 namespace lumivec::pov {
@@ -335,8 +336,13 @@ std::optional<double> pattern_value(const Pattern& pattern, const V3d& point, co
 ColorFT pigment_color(const Pigment& pigment, const V3d& point, bool& approximate,
                       const V3d& spread) {
   if (pigment.image) {
+    const auto color = pigment.uv_mapping || !follows_warps(pigment.pattern)
+                           ? std::nullopt
+                           : image_color(*pigment.image,
+                                         pattern_point(pigment.pattern, {point, spread}, false).at);
+    if (color) return *color;
     approximate = true;
-    return mean_of(pigment, point, approximate);
+    return mean_image_color(*pigment.image);
   }
   if (pigment.pattern.kind == K::keyword_count) return pigment.color;
   const PatternPoint inside = pattern_point(pigment.pattern, {point, spread}, false);

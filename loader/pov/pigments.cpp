@@ -3,6 +3,7 @@
 #include "loader/pov/blend_maps.h"
 #include "loader/pov/colors.h"
 #include "loader/pov/expression.h"
+#include "loader/pov/image_maps.h"
 #include "loader/pov/patterns.h"
 
 namespace lumivec::pov {
@@ -59,7 +60,7 @@ bool parse_item(Parser& parser, Pigment& pigment) {
     return true;
   }
   if (parser.accept(K::image_map_)) {
-    pigment.image = parse_image_block(parser);
+    pigment.image = parse_image_map(parser);
     return true;
   }
   if (parser.accept(K::quick_color_)) {
