@@ -42,7 +42,8 @@ MapPicture picture_of(const Image& image, double file_gamma, double scene_gamma)
     for (std::size_t c = 0; c < 4; ++c) {
       const bool bytes = image.rgba32f.empty();
       if (c == 3) {
-        pixel[c] = bytes ? static_cast<float>(image.rgba8[4 * i + c] / full) : image.rgba32f[4 * i + c];
+        pixel[c] =
+            bytes ? static_cast<float>(image.rgba8[4 * i + c] / full) : image.rgba32f[4 * i + c];
       } else {
         pixel[c] = bytes ? of_byte[image.rgba8[4 * i + c]]
                          : as_written(double(image.rgba32f[4 * i + c]), file_gamma, scene_gamma);
@@ -52,7 +53,8 @@ MapPicture picture_of(const Image& image, double file_gamma, double scene_gamma)
     }
   }
   for (std::size_t c = 0; c < 4; ++c)
-    picture.mean[c] = static_cast<float>(sum[c] / static_cast<double>(std::max(count, std::size_t{1})));
+    picture.mean[c] =
+        static_cast<float>(sum[c] / static_cast<double>(std::max(count, std::size_t{1})));
   return picture;
 }
 
@@ -65,9 +67,8 @@ std::shared_ptr<const MapPicture> read_picture(Parser& parser, const ImageUse& u
     parser.mention(place, "a picture is left out: " + why);
   };
   try {
-    const Image image =
-        decode_picture(parser.sources.read(use.file, use.named_in),
-                       [&](std::uint64_t bytes) { parser.claim(bytes); });
+    const Image image = decode_picture(parser.sources.read(use.file, use.named_in),
+                                       [&](std::uint64_t bytes) { parser.claim(bytes); });
     if (image.width < 1 || image.height < 1) return nullptr;
     parser.claim(std::uint64_t(image.width) * std::uint64_t(image.height) *
                  sizeof(std::array<float, 4>));
