@@ -20,16 +20,11 @@
 #include "integrator/path_tracer.h"
 #include "integrator/photon_map.h"
 #include "integrator/ray_packet.h"
+#include "integrator/seconds_since.h"
 #include "integrator/traced_scene.h"
 
 namespace lumivec {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr int tile_side = 32;  // pixels
 // Samples or rays that a thread traces at once.

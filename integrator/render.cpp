@@ -4,28 +4,27 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include "integrator/cache_builder.h"
+#include "integrator/error_estimate.h"
+#include "integrator/film.h"
 #include "integrator/light_tracer.h"
 #include "integrator/paper_builder.h"
 #include "integrator/parallel.h"
 #include "integrator/partition.h"
 #include "integrator/path_tracer.h"
+#include "integrator/relative_error.h"
 #include "integrator/sampling.h"
+#include "integrator/seconds_since.h"
 
 namespace lumivec {
 namespace {
 
-// Large enough to keep eight lanes full to the end, small enough that sums stay in the cache and
-// two threads end together.
-constexpr int tile_size = 16;
 constexpr std::uint32_t default_samples = 64;
 // Passes grow up to this, so that a stop or a time limit is never far away.
 constexpr std::uint32_t max_pass_samples = 16;
@@ -44,8 +43,6 @@ constexpr std::uint64_t least_map_paths = 1 << 16, most_map_paths = 1 << 21;
 constexpr std::uint32_t most_map_samples = 4;
 // With cached light, pixels all have so many samples before any has more.
 constexpr std::uint32_t even_samples = 4;
-// Pixels darker than this share of the picture's mean are sampled as if they were as bright.
-constexpr double dark_share = 0.2;
 // The share of the whole error that is left to the cache.
 constexpr double cache_share = 0.5;
 // Limited by time, the cache starts with this error, and gets better by this factor again and
@@ -55,289 +52,6 @@ constexpr double timed_error_step = 0.7;
 // Pixels between those that show what a better cache changes.
 constexpr int probe_stride = 4;
 constexpr double progress_interval = 0.1;  // seconds
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-void check(const PaperParameters& p) {
-  if (!(p.max_variation > 0.0f) || !std::isfinite(p.max_variation))
-    throw RenderError("the paper's largest variation must be positive");
-  for (const float cosine : {p.min_normal_cosine, p.min_direction_cosine}) {
-    if (!(cosine >= -1.0f && cosine < 1.0f))
-      throw RenderError("the paper's least cosines must be at least -1 and below 1");
-  }
-  if (p.needed_records < 1 || p.samples < 1)
-    throw RenderError("the paper's records needed and samples must be at least 1");
-  if (p.seeds < 0 || p.max_records < 0)
-    throw RenderError("the paper's numbers of seeds and records must not be negative");
-}
-
-void check(const RenderSettings& s) {
-  if (s.width < 1 || s.height < 1 || s.width > max_picture_side || s.height > max_picture_side) {
-    throw RenderError("a picture of " + std::to_string(s.width) + "x" + std::to_string(s.height) +
-                      " pixels cannot be rendered; each side may have 1 to " +
-                      std::to_string(max_picture_side));
-  }
-  if (s.samples < 0 || s.samples > max_picture_samples) {
-    throw RenderError("samples a pixel must be between 0 and " +
-                      std::to_string(max_picture_samples));
-  }
-  if (!(s.seconds >= 0.0) || !std::isfinite(s.seconds))
-    throw RenderError("the time limit must be a positive number of seconds");
-  if (!(s.error >= 0.0) || !std::isfinite(s.error))
-    throw RenderError("the target error must be a positive fraction");
-  if (!(s.specular_roughness >= 0.0f && s.specular_roughness <= 1.0f)) {
-    throw RenderError("the specular roughness threshold must be between 0 and 1");
-  }
-  if (s.max_depth < 0)
-    throw RenderError("the maximal depth must not be negative; 0 means no limit");
-  if (!(s.cache_error > 0.0) || !std::isfinite(s.cache_error))
-    throw RenderError("the error of cached light must be a positive fraction");
-  check(s.paper);
-}
-
-// Sums over all samples so far, and the tiles that share them out.
-class Film {
- public:
-  explicit Film(const RenderSettings& settings)
-      : width_(settings.width),
-        height_(settings.height),
-        columns_((settings.width + tile_size - 1) / tile_size),
-        rows_((settings.height + tile_size - 1) / tile_size),
-        pixels_(std::size_t(settings.width) * std::size_t(settings.height)) {}
-
-  int tile_count() const { return columns_ * rows_; }
-
-  Tile tile(int index) const {
-    const int x = index % columns_ * tile_size, y = index / columns_ * tile_size;
-    return {x, y, std::min(tile_size, width_ - x), std::min(tile_size, height_ - y)};
-  }
-
-  void add(const Tile& tile, const std::vector<PixelSums>& sums, bool first_pass) {
-    for (int y = 0; y < tile.height; ++y) {
-      for (int x = 0; x < tile.width; ++x) {
-        const PixelSums& from = sums[std::size_t(y) * std::size_t(tile.width) + std::size_t(x)];
-        PixelSums& to =
-            pixels_[std::size_t(tile.y + y) * std::size_t(width_) + std::size_t(tile.x + x)];
-        for (std::size_t i = 0; i < term_count; ++i) to.terms[i] += from.terms[i];
-        to.albedo += from.albedo;
-        to.normal += from.normal;
-        to.samples += from.samples;
-        to.squares += from.squares;
-        to.traced_squares += from.traced_squares;
-        to.photons += from.photons;
-        if (!first_pass) continue;
-        to.position = from.position;
-        to.depth = from.depth;
-        to.object = from.object;
-      }
-    }
-  }
-
-  // What a light path brought to the picture.
-  void add(const Splat& splat) {
-    if (light_.empty()) light_.resize(pixels_.size());
-    light_[splat.pixel].terms[static_cast<std::size_t>(splat.term)] += splat.value;
-  }
-  void add_light_paths(std::uint64_t count) { light_paths_ += count; }
-  std::uint64_t light_paths() const { return light_paths_; }
-
-  // Mean radiance of a term at pixel i: eye paths by the pixel's samples, light paths by their own
-  // number.
-  Color mean(std::size_t i, std::size_t term) const {
-    const PixelSums& p = pixels_[i];
-    Color result(0.0f);
-    if (p.samples > 0) result += p.terms[term] * (1.0f / static_cast<float>(p.samples));
-    if (!light_.empty() && light_paths_ > 0)
-      result += light_[i].terms[term] * static_cast<float>(1.0 / static_cast<double>(light_paths_));
-    return result;
-  }
-
-  Color beauty(std::size_t i) const {
-    Color sum(0.0f);
-    for (std::size_t term = 0; term < term_count; ++term) sum += mean(i, term);
-    return sum;
-  }
-
-  // Estimated from the spread of its samples: the variance of pixel i's mean brightness, relative
-  // as in relMSE.
-  double relative_variance(std::size_t i) const {
-    const PixelSums& p = pixels_[i];
-    if (p.samples < 2) return 0.0;
-    const double mean = brightness(p);
-    const double variance = variance_of(p, p.squares, mean);
-    return variance > 0.0 ? variance / (mean * mean + 0.01) : 0.0;
-  }
-
-  // Estimated √relMSE; −1 where a pixel has too few samples to tell.
-  double relative_error() const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
-      if (pixels_[i].samples < 2) return -1.0;
-      sum += relative_variance(i);
-    }
-    return std::sqrt(sum / static_cast<double>(pixels_.size()));
-  }
-
-  // Of one sample, √: what a pixel's number of samples should be in proportion to. Taken from the
-  // eight pixels around it and not from its own samples: pixels that have met nothing bright yet
-  // would have fewer samples for it, and their means would be too dark (Kirk and Arvo 1991,
-  // "Unbiased Sampling Techniques for Image Synthesis"). What photons bring is the same for
-  // neighbours, and left out for that reason but for its mean over the tile.
-  std::vector<float> spread() const {
-    std::vector<float> own(pixels_.size()), result(pixels_.size());
-    std::vector<double> photons(static_cast<std::size_t>(tile_count()));
-    double all = 0.0;
-    for (int t = 0; t < tile_count(); ++t) {
-      for_each_pixel(tile(t), [&](std::size_t i) {
-        all += brightness(pixels_[i]);
-        photons[std::size_t(t)] += photon_brightness(pixels_[i]);
-      });
-      const Tile area = tile(t);
-      photons[std::size_t(t)] /= double(area.width) * area.height;
-    }
-    // Relative to the picture's own brightness, so that twice the light is sampled alike.
-    const double dark = dark_share * all / static_cast<double>(own.size());
-    for (int t = 0; t < tile_count(); ++t) {
-      for_each_pixel(tile(t), [&](std::size_t i) {
-        const PixelSums& p = pixels_[i];
-        if (p.samples < 2) return;
-        const double traced = brightness(p) - photon_brightness(p);
-        const double seen = traced + photons[std::size_t(t)];
-        const double variance = p.samples * variance_of(p, p.traced_squares, traced);
-        if (variance > 0.0) own[i] = static_cast<float>(variance / (seen * seen + dark * dark));
-      });
-    }
-    for (int y = 0; y < height_; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        const auto at = [&](int i, int j) {
-          return own[std::size_t(j) * std::size_t(width_) + std::size_t(i)];
-        };
-        // Edges that the pixel lies on go through two of the eight.
-        float most = 0.0f, sum = 0.0f;
-        int count = 0;
-        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height_ - 1); ++j) {
-          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width_ - 1); ++i) {
-            if (i == x && j == y) continue;
-            most = std::max(most, at(i, j));
-            sum += at(i, j);
-            ++count;
-          }
-        }
-        const float around = count > 0 ? 0.5f * (most + sum / static_cast<float>(count)) : at(x, y);
-        result[std::size_t(y) * std::size_t(width_) + std::size_t(x)] = std::sqrt(around);
-      }
-    }
-    return result;
-  }
-
-  std::size_t size() const { return pixels_.size(); }
-  const PixelSums& pixel(std::size_t i) const { return pixels_[i]; }
-
-  Framebuffer resolve(const V3d& origin) const {
-    Framebuffer result;
-    result.width = width_;
-    result.height = height_;
-    const std::size_t n = pixels_.size();
-    for (std::vector<Color>& term : result.terms) term.resize(n, Color(0.0f));
-    result.albedo.resize(n, Color(0.0f));
-    result.normal.resize(n, V3f(0.0f));
-    result.position.resize(n, V3f(0.0f));
-    result.depth.resize(n);
-    result.object.resize(n);
-    result.samples.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const PixelSums& p = pixels_[i];
-      const float scale = p.samples > 0 ? 1.0f / static_cast<float>(p.samples) : 0.0f;
-      for (std::size_t t = 0; t < term_count; ++t) result.terms[t][i] = mean(i, t);
-      result.albedo[i] = p.albedo * scale;
-      result.normal[i] = p.normal * scale;
-      result.position[i] = p.object >= 0 ? V3f(V3d(p.position) + origin) : V3f(0.0f);
-      result.depth[i] = p.depth;
-      result.object[i] = p.object;
-      result.samples[i] = p.samples;
-    }
-    return result;
-  }
-
- private:
-  template <typename Visit>
-  void for_each_pixel(const Tile& tile, const Visit& visit) const {
-    for (int y = tile.y; y < tile.y + tile.height; ++y) {
-      for (int x = tile.x; x < tile.x + tile.width; ++x)
-        visit(std::size_t(y) * std::size_t(width_) + std::size_t(x));
-    }
-  }
-
-  // Mean of a pixel's samples, of the channels of all terms.
-  static double brightness(const PixelSums& p) {
-    double sum = 0.0;
-    for (const Color& c : p.terms) sum += (double(c.x) + c.y + c.z) / 3.0;
-    return p.samples > 0 ? sum / p.samples : 0.0;
-  }
-  static double photon_brightness(const PixelSums& p) {
-    return p.samples > 0 ? double(p.photons) / p.samples : 0.0;
-  }
-  // Of the mean of two samples or more.
-  static double variance_of(const PixelSums& p, double squares, double mean) {
-    return std::max(0.0, squares / p.samples - mean * mean) / (p.samples - 1.0);
-  }
-
-  int width_, height_, columns_, rows_;
-  std::vector<PixelSums> pixels_;
-  struct LightSums {
-    std::array<Color, term_count> terms;
-    LightSums() { terms.fill(Color(0.0f)); }
-  };
-  std::vector<LightSums> light_;  // from light paths; empty until the first arrives
-  std::uint64_t light_paths_ = 0;
-};
-
-// Estimates the error from what the second half of the samples changed. A pixel's square, which the
-// error is relative to, is taken as the product of its halves: the square of their mean is too
-// large where they are noisy, and would hide the very pixels that are worst.
-class ErrorEstimate {
- public:
-  // Remembers the picture after `samples` samples.
-  void remember(const Film& film, std::uint32_t samples) {
-    samples_ = samples;
-    half_.resize(film.size());
-    for (std::size_t i = 0; i < film.size(); ++i) half_[i] = film.beauty(i);
-  }
-
-  // √relMSE of the picture, which has twice as many samples now.
-  double compare(const Film& film) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < film.size(); ++i) {
-      const Color mean = film.beauty(i);
-      for (int c = 0; c < 3; ++c) {
-        // mean = (first + second) / 2, so first - mean is half the difference: its square estimates
-        // the variance.
-        const double d = double(half_[i][c]) - mean[c];
-        const double second = 2.0 * mean[c] - half_[i][c];
-        sum += d * d / (std::max(half_[i][c] * second, 0.0) + 0.01);
-      }
-    }
-    compared_at_ = 2 * samples_;
-    error_ = std::sqrt(sum / (3.0 * static_cast<double>(film.size())));
-    return error_;
-  }
-
-  std::uint32_t samples() const { return samples_; }
-  double error() const { return error_; }
-  // At another number of samples, by the rate of plain Monte Carlo.
-  double error_at(double samples) const {
-    return error_ < 0.0 || samples <= 0.0 ? error_ : error_ * std::sqrt(compared_at_ / samples);
-  }
-
- private:
-  std::vector<Color> half_;
-  std::uint32_t samples_ = 0;
-  double compared_at_ = 0.0;
-  double error_ = -1.0;
-};
 
 // One render from the first pass to the last.
 class StillRender {
@@ -482,7 +196,7 @@ class StillRender {
     for (std::size_t i = 0; i < now.size(); ++i) {
       for (int c = 0; c < 3; ++c) {
         const double d = double(now[i][c]) - before[i][c];
-        sum += d * d / (double(now[i][c]) * now[i][c] + 0.01);
+        sum += relative_to(d * d, double(now[i][c]) * now[i][c]);
       }
     }
     return std::sqrt(sum / (3.0 * static_cast<double>(now.size())));

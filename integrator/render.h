@@ -2,20 +2,13 @@
 #pragma once
 
 #include <functional>
-#include <stdexcept>
 
+#include "integrator/check_settings.h"
 #include "integrator/framebuffer.h"
 #include "integrator/settings.h"
 #include "loader/scene.h"
 
 namespace lumivec {
-
-// Settings that contradict themselves or a scene that does not fit the machine; what() is one line
-// for the user.
-class RenderError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct RenderProgress {
   double fraction = 0.0;      // of the work, by the limit that is nearest, [0, 1]

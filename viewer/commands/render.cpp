@@ -4,12 +4,12 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "integrator/render.h"
+#include "integrator/seconds_since.h"
 #include "viewer/atomic_file.h"
 #include "viewer/errors.h"
 #include "viewer/exposure.h"
@@ -25,12 +25,6 @@ namespace fs = std::filesystem;
 
 namespace lumivec {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Warnings go to the report, and to stderr unless they would be unwanted there.
 class Warnings {

@@ -1,17 +1,12 @@
 #include "viewer/walk/walk_engine.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+
+#include "integrator/seconds_since.h"
 
 namespace lumivec {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Before any has been measured.
 constexpr double first_sample_seconds = 4e-6;

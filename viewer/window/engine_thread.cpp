@@ -7,21 +7,16 @@
 #include <cmath>
 #include <new>
 
+#include "integrator/seconds_since.h"
 #include "viewer/scene_summary.h"
 #include "viewer/window/picture_point.h"
 
 namespace lumivec {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Layers cost as much as five pictures to put together, so there are not many a second.
 constexpr double seconds_between_layers = 0.2;
 constexpr double layers_share = 0.05;  // of the time, at most
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The middle of an instance's shape, object space.
 V3d center_of(const Scene& scene, int instance) {
