@@ -3,6 +3,7 @@
 #include "integrator/bsdf.h"
 
 #include <cmath>
+#include <limits>
 
 #include "integrator/bsdf_color.h"
 #include "integrator/ggx.h"
@@ -342,6 +343,43 @@ Bsdf Bsdf::with_only(std::uint32_t kinds) const {
   }
   const float scale = kept > 0.0f ? 1.0f / kept : 0.0f;
   for (LobeState& lobe : result.lobes_) lobe.probability *= scale;
+  return result;
+}
+
+int Bsdf::delta_lobe_count() const {
+  if (lambertian_) return 0;
+  int count = 0;
+  for (const LobeState& lobe : lobes_) {
+    if (lobe.probability <= 0.0f) continue;
+    if (!lobe.delta) return 0;
+    ++count;
+  }
+  return count;
+}
+
+Bsdf Bsdf::with_probabilities_in_parts(int parts) const {
+  Bsdf result = *this;
+  std::array<int, lobe_count> has{};
+  int left = parts;
+  for (std::size_t i = 0; i < lobe_count; ++i) {
+    has[i] = lobes_[i].probability > 0.0f ? 1 : 0;
+    left -= has[i];
+  }
+  // Each further part to the lobe that is furthest below its share.
+  for (; left > 0; --left) {
+    std::size_t neediest = 0;
+    float need = -std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < lobe_count; ++i) {
+      const float missing =
+          lobes_[i].probability * static_cast<float>(parts) - static_cast<float>(has[i]);
+      if (lobes_[i].probability <= 0.0f || missing <= need) continue;
+      need = missing;
+      neediest = i;
+    }
+    ++has[neediest];
+  }
+  for (std::size_t i = 0; i < lobe_count; ++i)
+    result.lobes_[i].probability = static_cast<float>(has[i]) / static_cast<float>(parts);
   return result;
 }
 

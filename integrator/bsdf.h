@@ -117,6 +117,13 @@ class Bsdf {
   // others, sample never draws them.
   Bsdf with_only(std::uint32_t kinds) const;
 
+  // How many lobes there are if all of them are delta lobes, else 0.
+  int delta_lobe_count() const;
+  // The same surface, of delta lobes alone: sample draws each of them with a probability that is a
+  // multiple of 1/parts, near its share of the light and never 0. So `parts` samples with evenly
+  // spread u_lobe find every lobe. parts: at least delta_lobe_count().
+  Bsdf with_probabilities_in_parts(int parts) const;
+
   // f of the diffuse lobe for light from unit direction wi, sr⁻¹; 0 below its normal.
   Color diffuse_brdf(const V3f& wi) const;
   // The shading normal, unit, as it was bent to the view.

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -16,9 +14,9 @@
 #include "integrator/camera_view.h"
 #include "integrator/light_tracer.h"
 #include "integrator/lights.h"
+#include "integrator/live_photons.h"
 #include "integrator/parallel.h"
 #include "integrator/path_tracer.h"
-#include "integrator/photon_map.h"
 #include "integrator/ray_packet.h"
 #include "integrator/seconds_since.h"
 #include "integrator/traced_scene.h"
@@ -42,13 +40,8 @@ constexpr int phase_step = 101;
 // what a few whole paths bring.
 constexpr std::array<float, 3> slacks = {256.0f, 16.0f, 1.0f};
 constexpr std::array<float, 2> meanwhile_slacks = {16.0f, 4096.0f};
-// Light paths of a photon map.
-constexpr std::uint64_t map_paths = 1 << 16;
-// Likewise before the first picture, and while the scene changes.
-constexpr std::uint64_t hurried_map_paths = map_paths / 8;
-// Light paths that are traced before time is looked at again, and those of a thread.
-constexpr std::uint64_t map_slice = 1024;
-constexpr std::uint32_t map_batch = 256;
+// Photon maps there can be at a time, in use and in the making.
+constexpr std::uint64_t most_photon_maps = 8;
 
 }  // namespace
 
@@ -59,8 +52,7 @@ struct LiveTracer::State {
         traced(std::in_place, scene, arena.max_concurrency()),
         lights(std::in_place, *traced),
         cache(*traced, s.validity_parts, s.cache_bytes),
-        photons(std::make_unique<PhotonMap>(*traced)),
-        next_photons(std::make_unique<PhotonMap>(*traced)) {
+        photons(*traced, s.cache_bytes / most_photon_maps) {
     find_casters();
     keep_transforms();
   }
@@ -78,48 +70,12 @@ struct LiveTracer::State {
 
   bool cached() const { return settings.integrator == Integrator::light_vectors; }
 
-  // A map in the making; photons are where light falls, whatever the eye sees.
-  struct GrowingMap {
-    std::uint64_t first = 0;  // light path; no two maps have the same
-    std::uint64_t traced = 0;
-    std::vector<Photon> photons;
-  };
-
-  void trace_photons(std::uint64_t paths, GrowingMap& map) {
-    std::vector<std::vector<Photon>> batches(paths / map_batch);
-    for_each(batches.size(), [&](std::size_t i) {
-      RenderStatistics counts;
-      light_tracer->trace(map.first + map.traced + i * map_batch, map_batch, batches[i], counts);
-    });
-    map.traced += paths;
-    for (const std::vector<Photon>& some : batches)
-      map.photons.insert(map.photons.end(), some.begin(), some.end());
-  }
-
-  void build_photons(PhotonMap& map, GrowingMap from, std::uint32_t number) const {
-    // As many photons in a disc as those of a still, which has a path for each pixel.
-    const float pixels = static_cast<float>(settings.width) * static_cast<float>(settings.height);
-    map.build(std::move(from.photons), from.traced, number,
-              std::max(1.0f, pixels / static_cast<float>(from.traced)));
-  }
-
   // What holds until gather_photons() has had its time.
-  void hurry_photons() {
-    end_building();
+  void restart_photons() {
     light_tracer.emplace(*traced, *lights, *view, settings, casters);
-    if (light_tracer->active()) {
-      GrowingMap few;
-      arena.execute([&] { trace_photons(hurried_map_paths, few); });
-      statistics.photons += few.photons.size();
-      build_photons(*photons, std::move(few), 0);
-    }
-    builder->set_photons(light_tracer->active() ? photons.get() : nullptr);
-    next_map = 0;
-  }
-
-  void end_building() {
-    if (building.valid()) building.get();
-    growing.reset();
+    photons.restart(*light_tracer, std::size_t(settings.width) * std::size_t(settings.height),
+                    arena, statistics);
+    builder->set_photons(photons.in_use());
   }
 
   // Up to a packet of pixels.
@@ -194,12 +150,9 @@ struct LiveTracer::State {
   std::vector<BoundingSphere> casters;
   std::vector<M44d> object_to_traced;  // of all instances
   IrradianceCache cache;
-  std::unique_ptr<PhotonMap> photons, next_photons;  // in use; being built
-  std::future<void> building;                        // of the latter
   std::optional<LightTracer> light_tracer;
-  std::optional<GrowingMap> growing;
+  LivePhotons photons;
   bool photons_outdated = false;
-  std::uint32_t next_map = 0;  // of full ones
   std::optional<CameraView> view, last_view;
   std::optional<PathTracer> tracer;  // of that view
   std::optional<CameraView> expected_view;
@@ -240,7 +193,7 @@ void LiveTracer::set_view(const Camera& camera, int width, int height) {
     s.photons_outdated = true;
   }
   if (s.builder && s.photons_outdated) {
-    s.hurry_photons();
+    s.restart_photons();
     s.photons_outdated = false;
   }
 }
@@ -254,36 +207,14 @@ void LiveTracer::expect_view(const Camera* camera) {
   s.expected_tracer.emplace(*s.traced, *s.lights, *s.expected_view, s.settings);
 }
 
-bool LiveTracer::gather_photons(double seconds, bool another) {
+bool LiveTracer::gather_photons(double seconds, PhotonDemand demand) {
   State& s = *state_;
-  if (!s.builder || !s.light_tracer->active()) return false;
-  const Clock::time_point start = Clock::now();
-  const auto left = [&] { return seconds - seconds_since(start); };
-  bool renewed = false;
-  if (s.building.valid()) {
-    // A view that rests has nothing better to do.
-    const std::chrono::duration<double> patience(another ? seconds : 0.0);
-    if (s.building.wait_for(patience) != std::future_status::ready) return false;
-    s.building.get();
-    std::swap(s.photons, s.next_photons);
-    s.builder->set_photons(s.photons.get());
-    if (s.next_map++ == 0) ++s.generation;
-    renewed = true;
-  }
-  if (!s.growing && (s.next_map == 0 || (another && !renewed)))
-    s.growing = {s.next_map * map_paths, 0, {}};
-  if (!s.growing) return renewed;
-  s.arena.execute([&] {
-    while (s.growing->traced < map_paths && left() > 0.0) s.trace_photons(map_slice, *s.growing);
-  });
-  if (s.growing->traced < map_paths) return renewed;
-  s.statistics.photons += s.growing->photons.size();
-  s.building = std::async(std::launch::async,
-                          [&s, map = std::move(*s.growing), number = s.next_map]() mutable {
-                            s.build_photons(*s.next_photons, std::move(map), number);
-                          });
-  s.growing.reset();
-  return renewed;
+  if (!s.builder) return false;
+  const PhotonChange change = s.photons.gather(seconds, demand, s.arena, s.statistics);
+  if (change == PhotonChange::none) return false;
+  s.builder->set_photons(s.photons.in_use());
+  if (change == PhotonChange::better) ++s.generation;
+  return true;
 }
 
 void LiveTracer::update(const SceneChanges& changes) {
@@ -299,7 +230,7 @@ void LiveTracer::update(const SceneChanges& changes) {
       before.push_back(s.object_to_traced[static_cast<std::size_t>(i)]);
     }
   }
-  s.end_building();
+  s.photons.stop();
   s.expected_tracer.reset();
   s.light_tracer.reset();
   s.lights.reset();
@@ -462,7 +393,7 @@ bool LiveTracer::improve(double seconds, double refining_seconds) {
     ++s.generation;
   }
   s.statistics.records = s.cache.size();
-  s.statistics.cache_bytes = s.cache.bytes() + s.photons->bytes();
+  s.statistics.cache_bytes = s.cache.bytes() + s.photons.bytes();
   return all;
 }
 
@@ -504,7 +435,7 @@ CacheSize LiveTracer::record_cache() const {
 }
 
 CacheSize LiveTracer::photon_map() const {
-  return {state_->photons->size(), state_->photons->bytes()};
+  return {state_->photons.size(), state_->photons.bytes()};
 }
 
 const RenderStatistics& LiveTracer::statistics() const {

@@ -26,6 +26,8 @@ struct LiveSample {
 };
 
 // What to trace: samples of a pixel are numbered from 0 on, and no number gives the same twice.
+enum class PhotonDemand : std::uint8_t;  // integrator/live_photons.h
+
 struct LiveRequest {
   std::uint32_t pixel = 0;  // row by row
   std::uint32_t sample = 0;
@@ -90,10 +92,9 @@ class LiveTracer {
              std::vector<LiveSample>& samples);
 
   // Traces light paths for at most about so long; light-vectors alone. The few of the first view
-  // are to be replaced by as many as a still has, which takes several calls; after that, where
-  // `another` asks for it, by as many others in narrower discs, so that caustics converge. True:
-  // new ones are in use since.
-  bool gather_photons(double seconds, bool another);
+  // grow to as many as a still has, and those of a view at rest are replaced by others
+  // (live_photons.h). True: other ones are in use since.
+  bool gather_photons(double seconds, PhotonDemand demand);
 
   // Makes cached light that the view lacks for at most so long, and then what there is better for
   // at most the other time out of it; light-vectors alone. False: time was too short for all of it.

@@ -159,6 +159,10 @@ class PathStream {
   // have one way to go.
   void split_beside_cache(Lane& lane, const Bsdf& traced) const;
 
+  // Where there are delta lobes alone, as on glass, each of them is followed: a faint one that is
+  // drawn now and then would be as bright then as it is rare.
+  void split_between_mirrors(Lane& lane, Bsdf& bsdf) const;
+
   // Keeps the first vertex, for as many continuations as the path has splits.
   void fork(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,
             const Bsdf& bsdf, const V3f& receiver, std::uint32_t light_samples);

@@ -74,6 +74,7 @@ void PathStream::shade(int i) {
   Bsdf bsdf(parameters, point.geometric_normal, -lane.direction, t_.scene_.albedo_tables(),
             t_.settings_.specular_roughness);
   if (lane.probe) bsdf = bsdf.with_only(kind_bit(LobeKind::specular));
+  if (lane.depth == 0) split_between_mirrors(lane, bsdf);
   const bool passes = parameters.transmission > 0.0f;
   const V3f receiver = passes ? V3f(0.0f) : point.geometric_normal;
   const bool may_sample_lights = bsdf.has_non_delta() && !t_.lights_.empty() && !cache_.asks();
@@ -125,7 +126,9 @@ void PathStream::shade_beside_cache(Lane& lane, const SurfacePoint& point,
   const Bsdf rest = bsdf.with_only(~kinds);
   split_beside_cache(lane, rest);
   may_sample_lights = may_sample_lights && !(bsdf.lambertian() && only_even_light(lane));
-  if (may_sample_lights && !results_ && !lane.caustic.scattered) {
+  // Beside what other continuations bring, one is enough.
+  const bool continued = lane.depth > 0 && lane.splits > 1;
+  if (may_sample_lights && !results_ && !lane.caustic.scattered && !continued) {
     // What it cost to come here is spread over several light samples.
     lane.light_samples = stop_light_samples;
     stop_of(lane).emplace(Stop{point, parameters, bsdf, rest, kinds, receiver});
@@ -139,6 +142,13 @@ void PathStream::shade_beside_cache(Lane& lane, const SurfacePoint& point,
 void PathStream::split_beside_cache(Lane& lane, const Bsdf& traced) const {
   if (!results_ && !cache_.asks() && lane.depth == 0 && traced.has_non_delta())
     lane.splits = usual_splits;
+}
+
+void PathStream::split_between_mirrors(Lane& lane, Bsdf& bsdf) const {
+  if (results_ || !cache_.any() || cache_.asks()) return;
+  if (bsdf.delta_lobe_count() < 2) return;
+  lane.splits = mirror_splits;
+  bsdf = bsdf.with_probabilities_in_parts(static_cast<int>(lane.splits));
 }
 
 void PathStream::go_on(Lane& lane, const SurfacePoint& point, const SurfaceParameters& parameters,

@@ -392,5 +392,38 @@ TEST(Bsdf, CoatHasItsOwnNormalAndRoughness) {
   EXPECT_TRUE(bsdf.has(LobeKind::diffuse));
 }
 
+TEST(Bsdf, InPartsEveryDeltaLobeIsDrawnAndTheSumStays) {
+  SurfaceParameters p = surface(0.0f);
+  p.transmission = 1.0f;
+  p.thin_walled = false;
+  p.eta = 1.5f;
+  for (const float clearcoat : {0.0f, 0.5f}) {
+    p.clearcoat = clearcoat;
+    p.clearcoat_roughness = 0.0f;
+    const Bsdf bsdf = make_bsdf(p, at_cosine(0.8f));
+    const int lobes = clearcoat > 0.0f ? 3 : 2;
+    ASSERT_EQ(bsdf.delta_lobe_count(), lobes);
+    for (const int parts : {3, 8}) {
+      const Bsdf split = bsdf.with_probabilities_in_parts(parts);
+      // Smooth glass: what each lobe returns is its share, and together they return everything.
+      float sum = 0.0f, reflected = 0.0f;
+      for (int i = 0; i < parts; ++i) {
+        BsdfSample sample;
+        ASSERT_TRUE(split.sample((float(i) + 0.5f) / float(parts), V2f(0.5f), sample));
+        sum += sample.weight.x / float(parts);
+        if (!sample.transmitted) reflected += sample.weight.x / float(parts);
+      }
+      EXPECT_NEAR(sum, 1.0f, 1e-5f) << parts << " parts, coat " << clearcoat;
+      EXPECT_GT(reflected, 0.03f);
+      if (clearcoat == 0.0f) {
+        EXPECT_NEAR(reflected, fresnel_dielectric(0.8f, 1.5f).reflectance, 1e-5f);
+      }
+    }
+  }
+  EXPECT_EQ(make_bsdf(surface(1.0f), up).delta_lobe_count(), 0);
+  p.roughness = 0.4f;
+  EXPECT_EQ(make_bsdf(p, at_cosine(0.8f)).delta_lobe_count(), 0);
+}
+
 }  // namespace
 }  // namespace lumivec

@@ -213,7 +213,7 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
     }
     vfloat8 low(0.0f), high(0.0f);
     float total = 0.0f, specular_samples = 0.0f, noise = 0.0f, age = 0.0f;
-    float mirrored = 0.0f, mirrors = 0.0f;
+    float mirrored = 0.0f, mirrors = 0.0f, refractions = 0.0f;
     if (taps.total[i] > least_share) {
       for (std::size_t tap = 0; tap < 4; ++tap) {
         const auto index = static_cast<std::size_t>(taps.pixel[tap][i]);
@@ -227,6 +227,8 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
         if (last_shades_.mirrored[index] >= 0.0f) {
           mirrored += w * last_shades_.mirrored[index];
           mirrors += w;
+        } else if (last_shades_.mirrored[index] == shows_by_refraction) {
+          refractions += w;
         }
         age += w * static_cast<float>(last_shades_.age[index]);
       }
@@ -242,7 +244,9 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
     float& samples = shade.lanes[Shade::samples_lane];
     samples = std::min(samples, most_samples);
     shades_.specular_samples[pixel] = std::min(specular_samples * scale, most_specular_samples);
-    shades_.mirrored[pixel] = mirrors > 0.5f * total ? mirrored / mirrors : shows_nothing;
+    float& shown = shades_.mirrored[pixel];
+    shown = refractions > 0.5f * total ? shows_by_refraction : shows_nothing;
+    if (mirrors > 0.5f * total) shown = mirrored / mirrors;
     shades_.noise[pixel] = noise * scale;
     follow_mirror(reprojection, left + static_cast<int>(i), y, visibility);
     shades_.age[pixel] = static_cast<std::uint16_t>(age * scale);
@@ -329,9 +333,11 @@ void ShadingCache::follow_mirror(const Reprojection& reprojection, int x, int y,
 
 float ShadingCache::want(std::size_t pixel) const {
   const std::size_t block = block_of(pixel);
+  const float samples = shades_.mirrored[pixel] == shows_nothing ? shades_.shade[pixel].samples()
+                                                                 : shades_.specular_samples[pixel];
   return noisiness_[block] * (1.0f + most_urgent * urgency_[block]) *
          (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) /
-         (1.0f + shades_.shade[pixel].samples());
+         (1.0f + samples);
 }
 
 // What changes goes on to change, and next to it.

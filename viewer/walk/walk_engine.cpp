@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrator/live_photons.h"
 #include "integrator/seconds_since.h"
 
 namespace lumivec {
@@ -10,10 +11,12 @@ namespace {
 
 // Before any has been measured.
 constexpr double first_sample_seconds = 4e-6;
-// How much of what is known the last frame's measurement replaces.
+// How much of what is known the last frame's measurement replaces; more where samples have become
+// much cheaper, as they do when cached light is there.
 constexpr double learning = 0.3;
+constexpr double much_cheaper = 0.5, learning_of_much = 0.7;
 // Of a frame's time for tracing, records have this share while there are some to make.
-constexpr double share_of_records = 0.4;
+constexpr double share_of_records = 0.33;
 // Likewise what there is has this share to become better in, as long as the eye moves.
 constexpr double share_of_refining = 0.1;
 // And photons this one, as long as there are too few, and at rest.
@@ -22,7 +25,7 @@ constexpr double share_of_photons = 0.06;
 // samples would be whole paths, which are noisy for long.
 constexpr double first_frame_seconds = 0.2;
 // However slow a machine is, records have at least this share of a frame's time.
-constexpr double least_share_of_records = 0.1;
+constexpr double least_share_of_records = 0.25;
 // A view is at rest after so many frames. From then on frames may take so many times as long: what
 // is done once a frame is done less often.
 constexpr int frames_to_rest = 8;
@@ -34,7 +37,7 @@ constexpr int frames_ahead = 8;
 // Changes of the light show for so long.
 constexpr double restless_seconds = 1.0;
 // However slow a machine is, at least this share of the pixels is traced in every frame.
-constexpr double least_traced_share = 0.02;
+constexpr double least_traced_share = 0.01;
 
 RenderSettings with_integrator(RenderSettings settings, const WalkMode& mode) {
   settings.integrator = mode.light_vectors ? Integrator::light_vectors : Integrator::path;
@@ -90,9 +93,11 @@ void WalkEngine::expect_view(const Camera& camera) {
 // Each of a resting view's samples of a pixel has photons of its own.
 void WalkEngine::gather_photons(double seconds) {
   if (changes_ && seconds_since_change_ < restless_seconds) return;
-  const bool another = resting_ >= frames_to_rest && samples_at_rest_ >= next_map_;
+  PhotonDemand demand = PhotonDemand::grow;
+  if (resting_ >= frames_to_rest)
+    demand = samples_at_rest_ >= next_map_ ? PhotonDemand::another : PhotonDemand::keep;
   change_light([&] {
-    if (tracer_.gather_photons(seconds, another))
+    if (tracer_.gather_photons(seconds, demand))
       next_map_ = samples_at_rest_ + std::size_t(width_) * std::size_t(height_);
   });
 }
@@ -121,7 +126,8 @@ void WalkEngine::trace_within(double seconds) {
   shading_.add(samples_);
   if (requests_.empty()) return;
   const double each = seconds_since(start) / static_cast<double>(requests_.size());
-  sample_seconds_ += learning * (each - sample_seconds_);
+  sample_seconds_ += (each < much_cheaper * sample_seconds_ ? learning_of_much : learning) *
+                     (each - sample_seconds_);
 }
 
 WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, std::uint32_t terms,
