@@ -74,9 +74,9 @@ class LivePhotons {
   std::unique_ptr<PhotonMap> wide_, narrow_, next_;  // next_: being built
   const PhotonMap* in_use_ = nullptr;
   GrowingMap growing_wide_;
-  std::uint64_t used_paths_ = 0;           // of growing_wide_'s, that wide_ is or will be made of
+  std::uint64_t used_paths_ = 0;  // of growing_wide_'s, that wide_ is or will be made of
   std::optional<GrowingMap> growing_narrow_;
-  std::uint32_t narrow_maps_ = 0;          // begun since the eye rests
+  std::uint32_t narrow_maps_ = 0;  // begun since the eye rests
   std::future<void> building_;
   bool building_narrow_ = false;
 };

@@ -336,8 +336,7 @@ float ShadingCache::want(std::size_t pixel) const {
   const float samples = shades_.mirrored[pixel] == shows_nothing ? shades_.shade[pixel].samples()
                                                                  : shades_.specular_samples[pixel];
   return noisiness_[block] * (1.0f + most_urgent * urgency_[block]) *
-         (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) /
-         (1.0f + samples);
+         (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) / (1.0f + samples);
 }
 
 // What changes goes on to change, and next to it.
