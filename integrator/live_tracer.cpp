@@ -295,10 +295,6 @@ V3d LiveTracer::pivot(const VisibleSurfaces& seen) const {
                                         seen.depth[pixel]));
 }
 
-std::size_t LiveTracer::instance_count() const {
-  return state_->traced->instances().size();
-}
-
 float LiveTracer::curvature(int instance) const {
   const TracedInstance& i = state_->traced->instances()[static_cast<std::size_t>(instance)];
   if (i.sphere >= 0) {

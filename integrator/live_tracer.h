@@ -77,7 +77,6 @@ class LiveTracer {
   // there.
   V3d pivot(const VisibleSurfaces& seen) const;
 
-  std::size_t instance_count() const;
   // How an instance curves toward the eye of the present view, scene units⁻¹: 1 / radius of what
   // bulges, negative of hollows, 0 of what is flat. NaN: it is neither a sphere nor flat.
   float curvature(int instance) const;

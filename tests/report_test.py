@@ -22,7 +22,7 @@ REPORT = TOP / "tools" / "report"
 sys.path.insert(0, str(TOP / "tools"))
 
 from report_parts.markup import number, seconds  # noqa: E402
-from report_parts.plan import Plan, find_scene  # noqa: E402
+from report_parts.plan import PARTS, Plan, find_scene  # noqa: E402
 from report_parts.plots import Level, Line, plot  # noqa: E402
 from report_parts.progress import Progress  # noqa: E402
 from report_parts.results import Reach, percentile, time_to_reach  # noqa: E402
@@ -319,6 +319,8 @@ class ReportTest(unittest.TestCase):
             (["--size", "12"], 2, "'12' is no size"),
             (["--threads", "many"], 2, "'many' is no number"),
             (["--quik"], 2, "--quik"),
+            (["--part", "walking"], 2, "'walking'"),
+            (["--frames", "1"], 2, "'1' is no number from 2"),
             (["--scene", "nowhere"], 1, "those are cornell_box_1, cornell_box_2"),
             (["--scene", "cornell_box_1"], 1, "given twice"),
             (["--build", "elsewhere"], 1, "elsewhere/viewer/lumivec is not there"),
@@ -399,6 +401,14 @@ class PlanTest(unittest.TestCase):
             self.assertEqual(len(walks), 2 + 2 * len(scale.frame_times) + 2)  # in image space
             keys = [step.key for step in plan.steps]
             self.assertEqual(len(keys), len(set(keys)))
+
+    def test_plan_of_a_part_holds_that_alone(self) -> None:
+        scenes = [find_scene("sphere_flake", TOP / "scenes")]
+        everything = Plan(Path("build"), Path("report"), QUICK, scenes, 2)
+        parts = [Plan(Path("build"), Path("report"), QUICK, scenes, 2, [part]) for part in PARTS]
+        self.assertTrue(all(plan.steps for plan in parts))
+        names = [step.name for plan in parts for step in plan.steps]
+        self.assertEqual(sorted(names), sorted(step.name for step in everything.steps))
 
     def test_work_folder_may_be_moved(self) -> None:
         scenes = [find_scene("sphere_flake", TOP / "scenes")]

@@ -57,9 +57,27 @@ def find_scene(name: str, shipped: Path) -> SceneFile:
     return SceneFile(path.stem, path, hashlib.sha256("".join(parts).encode()).hexdigest()[:16])
 
 
+# Parts that can be asked for alone, by the kinds of their steps.
+PARTS = {
+    "errors": ("error against time",),
+    "walks": ("walk",),
+    "queries": ("query",),
+    "hard-cases": ("hard cases",),
+    "validity": ("validity",),
+    "rays": ("rays",),
+    "stills": ("still", "comparison"),
+}
+
+
 class Plan:
     def __init__(
-        self, build: Path, folder: Path, scale: Scale, scenes: Sequence[SceneFile], threads: int
+        self,
+        build: Path,
+        folder: Path,
+        scale: Scale,
+        scenes: Sequence[SceneFile],
+        threads: int,
+        parts: Sequence[str] = (),  # none: all
     ) -> None:
         self.build, self.folder, self.scale = build, folder, scale
         self.scenes, self.threads = scenes, threads
@@ -77,6 +95,8 @@ class Plan:
         self._rays()
         for scene in scenes:
             self._stills(scene)
+        kinds = {kind for part in parts or PARTS for kind in PARTS[part]}
+        self.steps = [step for step in self.steps if step.kind in kinds]
 
     def _add(
         self,

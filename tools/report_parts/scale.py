@@ -17,8 +17,7 @@ class Scale:
     picture_seconds: float  # of each still that is shown
     picture_reference_samples: int
     # Walks.
-    frames: int
-    orbit: float  # degrees
+    frames: int  # 1 degree from one to the next
     walk_reference_samples: int
     frame_times: tuple[float, ...]  # ms, rising
     frame_time: float  # ms, one of them: the one that Table 1 is about
@@ -39,6 +38,11 @@ class Scale:
     rays_rounds: int
     rays_own_scenes: bool  # those of bench_rays: large ones too
 
+    @property
+    def orbit(self) -> float:
+        """Degrees that walks turn by in all."""
+        return self.frames - 1.0
+
 
 FULL = Scale(
     name="full",
@@ -50,7 +54,6 @@ FULL = Scale(
     picture_seconds=10.0,
     picture_reference_samples=512,
     frames=30,
-    orbit=15.0,
     walk_reference_samples=128,
     frame_times=(16.0, 33.0, 66.0, 132.0, 330.0, 660.0),
     frame_time=33.0,
@@ -80,7 +83,6 @@ QUICK = Scale(
     picture_seconds=1.0,
     picture_reference_samples=128,
     frames=10,
-    orbit=5.0,
     walk_reference_samples=48,
     frame_times=(4.0, 8.0, 16.0, 40.0),
     frame_time=8.0,

@@ -116,14 +116,11 @@ void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
   find_mixed(visibility.last());
   const Reprojection reprojection(tracer.view(0), visibility.now(), tracer.view(1),
                                   visibility.last(), width_, height_);
-  curvatures_.resize(tracer.instance_count());
-  for (std::size_t i = 0; i < curvatures_.size(); ++i)
-    curvatures_[i] = tracer.curvature(static_cast<int>(i));
   constexpr auto lanes = static_cast<int>(Reprojection::lanes);
   std::vector<std::vector<std::uint32_t>> doubtful(static_cast<std::size_t>(height_));
   for_each_row(height_, [&](int y) {
     for (int left = 0; left < width_; left += lanes)
-      carry_over(reprojection, left, y, visibility, doubtful[static_cast<std::size_t>(y)]);
+      carry_over(tracer, reprojection, left, y, visibility, doubtful[static_cast<std::size_t>(y)]);
   });
   std::vector<std::uint32_t> pixels;
   join_lists(doubtful, pixels);
@@ -133,7 +130,7 @@ void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
     int done = -1;
     for (const std::uint32_t pixel : doubtful[static_cast<std::size_t>(y)]) {
       const int left = static_cast<int>(pixel - at(0, y)) / lanes * lanes;
-      if (left != done) carry_over(reprojection, left, y, visibility, none);
+      if (left != done) carry_over(tracer, reprojection, left, y, visibility, none);
       done = left;
     }
   });
@@ -199,8 +196,9 @@ void ShadingCache::forget() {
 }
 
 // Each pixel from the four around the place where the last view saw its point.
-void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
-                              const Visibility& visibility, std::vector<std::uint32_t>& doubtful) {
+void ShadingCache::carry_over(const LiveTracer& tracer, const Reprojection& reprojection, int left,
+                              int y, const Visibility& visibility,
+                              std::vector<std::uint32_t>& doubtful) {
   Reprojection::Taps taps;
   reprojection.find(left, y, taps);
   const std::size_t first = at(left, y);
@@ -248,7 +246,7 @@ void ShadingCache::carry_over(const Reprojection& reprojection, int left, int y,
     shown = refractions > 0.5f * total ? shows_by_refraction : shows_nothing;
     if (mirrors > 0.5f * total) shown = mirrored / mirrors;
     shades_.noise[pixel] = noise * scale;
-    follow_mirror(reprojection, left + static_cast<int>(i), y, visibility);
+    follow_mirror(tracer, reprojection, left + static_cast<int>(i), y, visibility);
     shades_.age[pixel] = static_cast<std::uint16_t>(age * scale);
   }
 }
@@ -274,19 +272,19 @@ void ShadingCache::find_mixed(const VisibleSurfaces& seen) {
 }
 
 // What a mirror shows, from where the last view saw it.
-void ShadingCache::follow_mirror(const Reprojection& reprojection, int x, int y,
-                                 const Visibility& visibility) {
+void ShadingCache::follow_mirror(const LiveTracer& tracer, const Reprojection& reprojection, int x,
+                                 int y, const Visibility& visibility) {
   const std::size_t pixel = at(x, y);
   Shade& shade = shades_.shade[pixel];
   const std::int32_t object = visibility.now().object[pixel];
   float vergence = shades_.mirrored[pixel];
   if (object < 0 || vergence < 0.0f) return;
-  const float curvature = curvatures_[static_cast<std::size_t>(object)];
-  if (std::isnan(curvature)) return;
   float all = 0.0f, specular = 0.0f;
   for (std::size_t i = 0; i < Shade::samples_lane; ++i) all += shade.lanes[i];
   for (std::size_t c = 0; c < 3; ++c) specular += shade.lanes[3 * specular_term + c];
   if (!(specular > least_mirrored_share * all)) return;
+  const float curvature = tracer.curvature(object);
+  if (std::isnan(curvature)) return;
 
   // What the pixel's surface showed is a guess of what it shows now: the place where that leads to
   // knows better.

@@ -92,9 +92,6 @@ class ShadingCache {
   std::vector<std::uint8_t> mixed_;
   bool rested_ = false;
 
-  // Curvatures of what is seen, by instance.
-  std::vector<float> curvatures_;
-
   // What choose() goes by, of a row.
   struct Row {
     double wanted = 0.0;  // sum over the pixels that show something
@@ -102,9 +99,9 @@ class ShadingCache {
     std::size_t holes = 0;
   };
 
-  void carry_over(const class Reprojection& reprojection, int left, int y,
+  void carry_over(const LiveTracer& tracer, const class Reprojection& reprojection, int left, int y,
                   const Visibility& visibility, std::vector<std::uint32_t>& doubtful);
-  void follow_mirror(const class Reprojection& reprojection, int x, int y,
+  void follow_mirror(const LiveTracer& tracer, const class Reprojection& reprojection, int x, int y,
                      const Visibility& visibility);
   void find_mixed(const VisibleSurfaces& seen);
   bool is_mixed(std::size_t pixel) const { return !mixed_.empty() && mixed_[pixel] != 0; }
