@@ -151,7 +151,7 @@ class Bsdf {
   struct LobeState {
     float probability;  // 0: the lobe is not there
     LobeKind kind;
-    bool delta;
+    bool delta = false;
   };
 
   struct Coat {
@@ -202,9 +202,9 @@ class Bsdf {
   Color diffuse_;    // f of the diffuse lobe, but for what depends on wi
   bool lambertian_;  // nothing but the diffuse lobe: the rest is not set
 
-  bool thin_;
-  bool rough_;            // the base has microfacets
-  bool facets_transmit_;  // … through which light passes
+  bool thin_ = false;
+  bool rough_ = false;            // the base has microfacets
+  bool facets_transmit_ = false;  // … through which light passes
   V3f local_wo_;
   float alpha_;
   float root_wo_;  // smith_root
