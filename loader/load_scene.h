@@ -46,6 +46,8 @@ struct LoadReport {
   std::vector<std::string> extensions_used;
   std::vector<std::string> extensions_ignored;  // used, not required, not supported
   std::vector<LoadWarning> warnings;            // each worth one line to the user
+  // Read besides the scene file itself, absolute; POV-Ray: includes, pictures, height fields, data.
+  std::vector<std::filesystem::path> files;
   bool default_camera = false;  // the file had none; Scene::cameras[0] was made to frame everything
 };
 

@@ -171,6 +171,19 @@ TEST(PovLanguage, AnEndlessLoopEndsWithALine) {
   EXPECT_NE(file.error().find("--max-steps"), std::string::npos);
 }
 
+// Once each, however often they are included.
+TEST(PovLanguage, TellsWhichFilesItRead) {
+  PovFile file("#include \"a.inc\"\n#include \"a.inc\"\nsphere { 0, Size }\n");
+  file.write("a.inc", "#include \"parts/b.inc\"\n");
+  std::filesystem::create_directories(file.folder / "parts");
+  file.write("parts/b.inc", "#declare Size = 1;\n");
+  file.write("unused.inc", "#declare Size = 2;\n");
+  file.load();
+  const std::filesystem::path folder = std::filesystem::canonical(file.folder);
+  EXPECT_EQ(file.report.files,
+            (std::vector<std::filesystem::path>{folder / "a.inc", folder / "parts" / "b.inc"}));
+}
+
 TEST(PovLanguage, AnIncludeOutsideTheFolderEndsWithALine) {
   PovFile file("#include \"../outside.inc\"");
   file.write("../outside.inc", "sphere { 0, 1 }");

@@ -36,8 +36,7 @@ bool has_light(const Scene& scene) {
 
 Scene load_lit_scene(const std::filesystem::path& file, const LoadOptions& options,
                      const EnvironmentChoice& environment,
-                     const std::function<void(const std::string&)>& warn) {
-  LoadReport report;
+                     const std::function<void(const std::string&)>& warn, LoadReport& report) {
   Scene scene = load_scene(file, options, report);
   for (const LoadWarning& warning : report.warnings)
     warn(warning.where.empty() ? warning.message : warning.where + ": " + warning.message);

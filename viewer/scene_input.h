@@ -34,10 +34,11 @@ std::size_t choose_animation(const Scene& scene, const std::string& option,
 // Throws UsageError.
 void pose(Scene& scene, const PoseChoice& choice);
 
-// warn is called with one line for each thing that the user should know. Throws LoadError.
+// warn is called with one line for each thing that the user should know. report: what loading
+// tells. Throws SceneError.
 Scene load_lit_scene(const std::filesystem::path& file, const LoadOptions& options,
                      const EnvironmentChoice& environment,
-                     const std::function<void(const std::string&)>& warn);
+                     const std::function<void(const std::string&)>& warn, LoadReport& report);
 
 // wanted: a name, an index or a view as camera_text.h has it, whose other properties are the first
 // camera's; empty: the first. Throws UsageError.

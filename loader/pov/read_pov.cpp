@@ -73,6 +73,7 @@ Scene read_pov(const std::filesystem::path& file, const ByteSource& bytes,
   scene.name = file.stem().string();
   report.format = format_name(parser.scene.version);
   report.generator.clear();
+  report.files = parser.sources.files();
   finish_mentions(parser, report);
   return scene;
 }

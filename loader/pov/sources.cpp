@@ -91,6 +91,7 @@ ByteSource Sources::open(const std::string& name, const fs::path& file) const {
     throw FileProblem{"the file \"" + name + "\" cannot be opened: " + error.what(),
                       "check its permissions"};
   }
+  opened_.insert(file);
   if (bytes.size() > options_.language.max_file_bytes) {
     throw FileProblem{"the file \"" + name + "\" has " + std::to_string(bytes.size()) +
                           " bytes, more than the limit of " +
@@ -115,6 +116,10 @@ std::uint32_t Sources::include(const std::string& name, std::uint32_t from, Symb
 std::vector<std::uint8_t> Sources::read(const std::string& name, std::uint32_t from) const {
   const ByteSource bytes = open(name, find_or_throw(name, from));
   return bytes.read(0, bytes.size());
+}
+
+std::vector<fs::path> Sources::files() const {
+  return {opened_.begin(), opened_.end()};
 }
 
 bool Sources::exists(const std::string& name, std::uint32_t from) const {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ class Sources {
   std::vector<std::uint8_t> read(const std::string& name, std::uint32_t from) const;
   bool exists(const std::string& name, std::uint32_t from) const;
 
+  // That were opened, canonical, each once.
+  std::vector<std::filesystem::path> files() const;
+
   const Source& operator[](std::uint32_t index) const { return *sources_[index]; }
   std::uint64_t bytes() const { return bytes_; }  // of all tokens and strings
 
@@ -57,6 +61,7 @@ class Sources {
   std::filesystem::path scene_folder_;        // canonical
   std::vector<std::filesystem::path> roots_;  // canonical; the scene's folder comes first
   std::vector<std::unique_ptr<Source>> sources_;
+  mutable std::set<std::filesystem::path> opened_;
   std::uint64_t bytes_ = 0;
 };
 

@@ -181,8 +181,10 @@ int run_render(const RenderOptions& options) {
     warnings.add("--exposure: changes displayed pictures alone, and there is none");
   }
 
-  Scene scene = load_lit_scene(options.scene_file, options.load, options.environment,
-                               [&](const std::string& warning) { warnings.add(warning); });
+  LoadReport loading;
+  Scene scene = load_lit_scene(
+      options.scene_file, options.load, options.environment,
+      [&](const std::string& warning) { warnings.add(warning); }, loading);
   pose(scene, options.pose);
   const Camera camera = choose_camera(scene, options.camera);
   report.scene_name = scene.name;

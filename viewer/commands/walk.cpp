@@ -259,12 +259,14 @@ int run_walk(const WalkOptions& options) {
   if (!options.statistics.empty()) check_writable(options.statistics);
   if (!options.output.empty() && !is_movie(options.output)) make_folder(options.output);
   const DisplayTransform display(options.display);
-  Scene scene = load_lit_scene(options.scene_file, options.load, options.environment,
-                               [&](const std::string& warning) {
-                                 warnings.push_back(warning);
-                                 if (!options.quiet)
-                                   std::cerr << "lumivec: warning: " << warning << '\n';
-                               });
+  LoadReport loading;
+  Scene scene = load_lit_scene(
+      options.scene_file, options.load, options.environment,
+      [&](const std::string& warning) {
+        warnings.push_back(warning);
+        if (!options.quiet) std::cerr << "lumivec: warning: " << warning << '\n';
+      },
+      loading);
   const Camera camera = choose_camera(scene, options.camera);
   RenderSettings settings = options.settings;
   const PictureSize size = options.size ? *options.size : size_for(camera);

@@ -10,9 +10,12 @@ std::shared_ptr<const LoadedScene> load_shared_scene(const SceneSource& source) 
   const auto start = std::chrono::steady_clock::now();
   auto loaded = std::make_shared<LoadedScene>();
   loaded->source = source;
+  LoadReport report;
   loaded->scene =
       load_lit_scene(source.file, source.load, source.environment,
-                     [&](const std::string& warning) { loaded->warnings.push_back(warning); });
+                     [&](const std::string& warning) { loaded->warnings.push_back(warning); },
+                     report);
+  loaded->files = std::move(report.files);
   pose(loaded->scene, source.pose);
   loaded->bounds = world_bounds(loaded->scene);
   loaded->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

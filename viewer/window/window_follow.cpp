@@ -61,6 +61,7 @@ void Window::take_scene(const EngineStatus& status) {
   state_.picked.reset();
   navigator_.set_scale(0.5 * scene.bounds.size().length());
   std::vector<fs::path> files = files_of_scene(scene.source.file);
+  files.insert(files.end(), scene.files.begin(), scene.files.end());
   if (scene.source.environment.is_file()) files.push_back(scene.source.environment.name);
   watch_.watch(std::move(files));
   remember_file(state_.settings, scene.source.file);
