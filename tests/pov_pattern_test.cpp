@@ -290,6 +290,19 @@ TEST(PovPattern, SpiralsHaveTheirArmsWhereTheLanguageHasThem) {
   EXPECT_NEAR(value(1, 1.4375), 0.6361, 1e-3);
 }
 
+// Figures: POV-Ray 3.7's picture of a gradient with this wave from black to white, in 16 bits; the
+// places are rounded to 1e-4, where the wave's slope is at most 1.5.
+TEST(PovPattern, CubicWavesRiseOnceInEachPeriod) {
+  lumivec::pov::Pattern wave;
+  wave.kind = lumivec::pov::K::gradient_;
+  wave.vector = {1.0, 0.0, 0.0};
+  wave.wave = lumivec::pov::K::cubic_wave_;
+  const double figures[][2] = {
+      {0.0595, 0.0102}, {0.1845, 0.0896}, {0.4345, 0.4023}, {0.6845, 0.7642}, {0.9345, 0.9877}};
+  for (const auto& [x, value] : figures)
+    EXPECT_NEAR(pattern_value(wave, {x, 0.0, 0.0}).value_or(-1.0), value, 3e-4) << x;
+}
+
 TEST(PovPattern, PatternsThatAreNotFollowedAreMentioned) {
   PovFile file(around + "plane { -z, 0 pigment { mandel 10 } }");
   file.load();

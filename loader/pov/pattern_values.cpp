@@ -273,10 +273,8 @@ double with_wave(const Pattern& pattern, double value) {
       return 0.5 + 0.5 * std::sin(2.0 * pi * value);
     case K::scallop_wave_:
       return std::abs(std::sin(pi * value));
-    case K::cubic_wave_: {
-      const double t = triangle_wave(value);
-      return t * t * (3.0 - 2.0 * t);
-    }
+    case K::cubic_wave_:
+      return value * value * (3.0 - 2.0 * value);
     case K::poly_wave_:
       return std::pow(std::max(value, 0.0), pattern.wave_exponent);
     default:
