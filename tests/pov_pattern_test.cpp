@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "integrator/render.h"
+#include "loader/pov/pattern_values.h"
 #include "tests/png_bytes.h"
 #include "tests/pov_file.h"
 
@@ -225,6 +226,81 @@ TEST(PovPattern, EmissionFollowsThePattern) {
       see("plane { -z, 0 pigment { " + checker + " } finish { diffuse 0 emission 1 } }");
   expect_color(at(picture, 0.6, 0.6), red, "first");
   expect_color(at(picture, 1.6, 0.6), green, "second");
+}
+
+// Figures: pictures by POV-Ray 3.7 of each pattern without a map and, for the value at the same
+// pixel, with one from black to white.
+TEST(PovPattern, PatternsWithoutAMapHaveTheLanguagesOwnColors) {
+  using lumivec::pov::K;
+  struct Figure {
+    K kind;
+    double value;
+    double color[3];
+  };
+  const Figure figures[] = {{K::agate_, 0.2423, {0.9758, 0.8789, 0.7577}},
+                            {K::agate_, 0.5643, {0.9, 0.7, 0.4357}},
+                            {K::agate_, 0.6446, {0.9554, 0.6554, 0.3554}},
+                            {K::bozo_, 0.3609, {1.0, 1.0, 1.0}},
+                            {K::bozo_, 0.5213, {0.0, 1.0, 0.0}},
+                            {K::bozo_, 0.6416, {0.0, 0.0, 1.0}},
+                            {K::marble_, 0.3749, {0.9, 0.5001, 0.5001}},
+                            {K::marble_, 0.9239, {0.0, 0.0, 0.0}},
+                            {K::radial_, 0.4748, {1.0, 0.5743, 0.4257}},
+                            {K::radial_, 0.825, {0.524, 0.476, 1.0}},
+                            {K::wood_, 0.5397, {0.666, 0.312, 0.2}},
+                            {K::wood_, 0.707, {0.4, 0.1333, 0.066}},
+                            {K::onion_, 0.3, {0.3, 0.3, 0.3}},
+                            {K::leopard_, 0.2, {0.2, 0.2, 0.2}}};
+  constexpr double near = 1e-3;
+  constexpr double steepest = 3.0;  // of all these maps, so that colors differ by this much more
+  for (const Figure& figure : figures) {
+    lumivec::pov::Pigment pigment;
+    pigment.pattern.kind = figure.kind;
+    bool met = false, approximate = false;
+    for (int i = 0; i < 20000 && !met; ++i) {
+      const lumivec::V3d p(0.0131 * i * std::cos(i), 0.0071 * i, 0.0113 * i * std::sin(i));
+      const auto value = pattern_value(pigment.pattern, p);
+      ASSERT_TRUE(value);
+      if (std::abs(*value - figure.value) > near) continue;
+      met = true;
+      const auto color = pigment_color(pigment, p, approximate);
+      EXPECT_NEAR(color.red, figure.color[0], steepest * near + 2e-4) << figure.value;
+      EXPECT_NEAR(color.green, figure.color[1], steepest * near + 2e-4) << figure.value;
+      EXPECT_NEAR(color.blue, figure.color[2], steepest * near + 2e-4) << figure.value;
+    }
+    EXPECT_TRUE(met) << figure.value;
+    EXPECT_FALSE(approximate);
+  }
+}
+
+// Figures: POV-Ray 3.7's pictures of spirals from black to white, in 16 bits, whose rays meet the
+// plane where they are asked here but for less than 1e-3.
+TEST(PovPattern, SpiralsHaveTheirArmsWhereTheLanguageHasThem) {
+  lumivec::pov::Pattern spiral;
+  spiral.kind = lumivec::pov::K::spiral1_;
+  const auto value = [&](double arms, double x) {
+    spiral.numbers = {arms};
+    return pattern_value(spiral, {x, -0.0625, 0.0}).value_or(-1.0);
+  };
+  EXPECT_NEAR(value(3, 0.0625), 0.9268, 1e-3);
+  EXPECT_NEAR(value(3, 0.5625), 0.5262, 1e-3);
+  EXPECT_NEAR(value(3, 1.4375), 0.3362, 1e-3);
+  EXPECT_NEAR(value(1, 0.0625), 0.4268, 1e-3);
+  EXPECT_NEAR(value(1, 0.5625), 0.4033, 1e-3);
+  EXPECT_NEAR(value(1, 1.4375), 0.6361, 1e-3);
+}
+
+// Figures: POV-Ray 3.7's picture of a gradient with this wave from black to white, in 16 bits; the
+// places are rounded to 1e-4, where the wave's slope is at most 1.5.
+TEST(PovPattern, CubicWavesRiseOnceInEachPeriod) {
+  lumivec::pov::Pattern wave;
+  wave.kind = lumivec::pov::K::gradient_;
+  wave.vector = {1.0, 0.0, 0.0};
+  wave.wave = lumivec::pov::K::cubic_wave_;
+  const double figures[][2] = {
+      {0.0595, 0.0102}, {0.1845, 0.0896}, {0.4345, 0.4023}, {0.6845, 0.7642}, {0.9345, 0.9877}};
+  for (const auto& [x, value] : figures)
+    EXPECT_NEAR(pattern_value(wave, {x, 0.0, 0.0}).value_or(-1.0), value, 3e-4) << x;
 }
 
 TEST(PovPattern, PatternsThatAreNotFollowedAreMentioned) {

@@ -8,6 +8,7 @@
 #include "loader/pov/functions.h"
 #include "loader/pov/image_maps.h"
 #include "loader/pov/noise.h"
+#include "loader/pov/usual_color_maps.h"
 
 namespace lumivec::pov {
 namespace {
@@ -221,6 +222,11 @@ std::optional<double> raw_value(const Pattern& pattern, const PatternPoint& poin
       return triangle_wave(p.x + turbulence_strength(pattern) * Turbulence().at(p).x);
     case K::radial_:
       return fraction(0.25 + std::atan2(p.x, p.z) / (2.0 * pi));
+    case K::spiral1_: {
+      if (pattern.numbers.empty()) return std::nullopt;
+      const double turns = 0.25 + std::atan2(p.y, p.x) / (2.0 * pi);
+      return triangle_wave(pattern.numbers[0] * turns + std::hypot(p.x, p.y));
+    }
     case K::planar_:
       return 1.0 - std::min(std::abs(p.y), 1.0);
     case K::cylindrical_:
@@ -267,10 +273,8 @@ double with_wave(const Pattern& pattern, double value) {
       return 0.5 + 0.5 * std::sin(2.0 * pi * value);
     case K::scallop_wave_:
       return std::abs(std::sin(pi * value));
-    case K::cubic_wave_: {
-      const double t = triangle_wave(value);
-      return t * t * (3.0 - 2.0 * t);
-    }
+    case K::cubic_wave_:
+      return value * value * (3.0 - 2.0 * value);
     case K::poly_wave_:
       return std::pow(std::max(value, 0.0), pattern.wave_exponent);
     default:
@@ -367,10 +371,12 @@ ColorFT pigment_color(const Pigment& pigment, const V3d& point, bool& approximat
     if (share == 0.0) return first;
     return mix(first, part(*pigment.pigment_map[i + 1].second), share);
   }
-  if (pigment.color_map.empty()) return {*value, *value, *value, 0.0, 0.0};
-  const auto [i, share] = place_in(pigment.color_map, *value);
-  if (share == 0.0) return pigment.color_map[i].second;
-  return mix(pigment.color_map[i].second, pigment.color_map[i + 1].second, share);
+  const ColorMap& map =
+      pigment.color_map.empty() ? usual_color_map(pigment.pattern.kind) : pigment.color_map;
+  if (map.empty()) return {*value, *value, *value, 0.0, 0.0};
+  const auto [i, share] = place_in(map, *value);
+  if (share == 0.0) return map[i].second;
+  return mix(map[i].second, map[i + 1].second, share);
 }
 
 }  // namespace lumivec::pov
