@@ -90,8 +90,8 @@ void CacheBuilder::set_error(double error) {
   for (std::size_t i = fineness.size(); i-- > 0;) {
     if (fineness[i].count() >= paths) cells = fineness[i];
   }
-  // Hemispheres of other cells are not averaged with these.
-  if (cells.count() != cells_.count()) {
+  // Hemispheres of other cells are not averaged with these; finer ones are good enough as they are.
+  if (cells.count() > cells_.count()) {
     for (std::uint32_t i = 0; i < cache_.size(); ++i) cache_.edit(i).passes = 0;
   }
   cells_ = cells;

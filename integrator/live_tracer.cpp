@@ -34,6 +34,13 @@ constexpr int block_width = 4, block_height = packet_size / block_width;
 constexpr int record_stride = 16;
 // Odd, so that all places of a block have their turn.
 constexpr int phase_step = 101;
+// At rest the error becomes smaller by this factor once so many places in turn lacked nothing, down
+// to this share of what was asked for.
+constexpr double resting_error_step = 0.7;
+constexpr int places_to_sharpen = record_stride * record_stride;
+constexpr double least_error_share = 0.35;
+// Looking for such places takes this share of the time for records, if there is anything to refine.
+constexpr double share_of_looking = 0.3;
 // Records are made from coarse to fine: first such that reach four times as far as they should,
 // and err 256 times as much; then twice as far. While those are missing which a pixel should have,
 // it makes do with others, and at last with any in an eighth of the scene or so: they err less than
@@ -69,6 +76,13 @@ struct LiveTracer::State {
   }
 
   bool cached() const { return settings.integrator == Integrator::light_vectors; }
+
+  void set_error(double wanted) {
+    if (error == wanted) return;
+    error = wanted;
+    complete = 0;
+    builder->set_error(error);
+  }
 
   // What holds until gather_photons() has had its time.
   void restart_photons() {
@@ -162,6 +176,8 @@ struct LiveTracer::State {
   int tiles_across = 0;
   int phase = 0;
   std::size_t level = 0;      // of slacks, that records are made for
+  double error = 0.0;         // that records are made for
+  int complete = 0;           // places in turn that lacked nothing
   std::uint32_t settled = 0;  // records when last all were there and as good as they should be
   unsigned generation = 0;
   RenderStatistics statistics;
@@ -190,6 +206,7 @@ void LiveTracer::set_view(const Camera& camera, int width, int height) {
   if (s.cached() && !s.builder) {
     // It knows the tracer by where it is, which stays the same.
     s.builder.emplace(*s.tracer, *s.traced, s.settings, s.cache);
+    s.error = s.settings.cache_error;
     s.photons_outdated = true;
   }
   if (s.builder && s.photons_outdated) {
@@ -352,12 +369,13 @@ void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
   });
 }
 
-bool LiveTracer::improve(double seconds, double refining_seconds) {
+bool LiveTracer::improve(double seconds, double refining_seconds, bool resting) {
   State& s = *state_;
   if (!s.builder) return true;
   const Clock::time_point start = Clock::now();
   const auto passed = [&] { return seconds_since(start); };
   const auto go_on = [&] { return passed() < seconds; };
+  if (!resting) s.set_error(s.settings.cache_error);
   bool all = true;
   while (true) {
     s.phase = (s.phase + phase_step) % (record_stride * record_stride);
@@ -366,12 +384,17 @@ bool LiveTracer::improve(double seconds, double refining_seconds) {
       all = s.builder->extend(*s.tracer, s.tiles, record_stride, s.phase, slacks[s.level], go_on,
                               s.statistics);
     });
-    // What the eye comes to see later is made at the finest level at once.
-    const bool enough = s.cache.size() - before <= before / 32;
-    if (!all || s.level + 1 == slacks.size()) break;
-    if (enough) {
+    const std::uint32_t made = s.cache.size() - before;
+    s.complete = all && made == 0 ? s.complete + 1 : 0;
+    if (!all) break;
+    if (s.level + 1 < slacks.size()) {
+      // What the eye comes to see later is made at the finest level at once.
+      if (made > before / 32) continue;
       ++s.level;
       ++s.generation;
+    } else if (!resting || passed() > share_of_looking * seconds ||
+               s.complete >= places_to_sharpen) {
+      break;
     }
   }
   if (all && s.expected_tracer && go_on()) {
@@ -386,6 +409,11 @@ bool LiveTracer::improve(double seconds, double refining_seconds) {
   }
   if (all && s.cache.size() > s.settled + s.settled / 16) {
     s.settled = s.cache.size();
+    ++s.generation;
+  }
+  if (all && resting && s.complete >= places_to_sharpen &&
+      s.error > least_error_share * s.settings.cache_error) {
+    s.set_error(resting_error_step * s.error);
     ++s.generation;
   }
   s.statistics.records = s.cache.size();

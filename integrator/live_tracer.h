@@ -96,8 +96,10 @@ class LiveTracer {
   bool gather_photons(double seconds, PhotonDemand demand);
 
   // Makes cached light that the view lacks for at most so long, and then what there is better for
-  // at most the other time out of it; light-vectors alone. False: time was too short for all of it.
-  bool improve(double seconds, double refining_seconds);
+  // at most the other time out of it; light-vectors alone. resting: the view stays, so that light
+  // is cached for a smaller and smaller error once it is there; of a view that moves, for that of
+  // the settings. False: time was too short for all of it.
+  bool improve(double seconds, double refining_seconds, bool resting);
 
   // Another number whenever cached light has become better as a whole, so that samples taken before
   // are worth less.

@@ -44,6 +44,27 @@ TEST(walk_engine, resting_converges_to_the_still) {
   }
 }
 
+TEST(live_tracer, light_is_cached_for_a_smaller_error_at_rest) {
+  const Scene scene = cornell_scene();
+  RenderSettings settings = walk_settings(16);
+  settings.integrator = Integrator::light_vectors;
+  LiveTracer tracer(scene, settings);
+  tracer.set_view(cornell_camera(), 16, 16);
+  constexpr int places = 256;
+  const auto improve = [&](bool resting) {
+    for (int i = 0; i < places; ++i) tracer.improve(long_frame, long_frame, resting);
+  };
+  improve(false);
+  const std::size_t moving = tracer.record_cache().entries;
+  const unsigned generation = tracer.generation();
+  improve(false);
+  EXPECT_LT(tracer.record_cache().entries, moving + moving / 20 + 2);
+  EXPECT_EQ(tracer.generation(), generation);
+  improve(true);
+  EXPECT_GT(tracer.record_cache().entries, moving + moving / 10);
+  EXPECT_GT(tracer.generation(), generation);
+}
+
 // What is edited shows, and only that: the picture becomes the still of the changed scene.
 TEST(walk_engine, changes_show) {
   constexpr int lamp = 5, block = 6;  // instances
@@ -270,6 +291,34 @@ TEST(shading_cache, traces_about_as_many_pixels_as_asked) {
       ++quarters[std::size_t((r.pixel % 64 >= 32 ? 1 : 0) + (r.pixel / 64 >= 32 ? 2 : 0))];
     }
     for (const int n : quarters) EXPECT_NEAR(n, double(count) / 4.0, 0.1 * double(count) + 8.0);
+  }
+}
+
+// Cached light that has become better takes nothing from what is known of the rest.
+TEST(shading_cache, doubts_cached_light_alone) {
+  const Scene scene = cornell_scene();
+  LiveTracer tracer(scene, walk_settings(8));
+  tracer.set_view(cornell_camera(), 8, 8);
+  Visibility visibility(8, 8);
+  visibility.see_all(tracer);
+  ShadingCache cache(8, 8);
+  cache.see(tracer, visibility);
+  const auto add = [&](float light) {
+    LiveSample sample;
+    sample.terms.fill(Color(light));
+    sample.pixel = 27;
+    cache.add({sample});
+  };
+  constexpr int before = 10;
+  for (int i = 0; i < before; ++i) add(1.0f);
+  cache.doubt_cached(1.0f);
+  add(2.0f);
+  std::vector<Color> layer;
+  for (std::size_t t = 0; t < term_count; ++t) {
+    cache.resolve(1u << t, visibility.now(), layer);
+    const bool cached = Term(t) != Term::emitted && Term(t) != Term::direct;
+    EXPECT_NEAR(layer[27].y, cached ? 1.5f : 1.0f + 1.0f / (before + 1.0f), 1e-5f)
+        << term_names[t];
   }
 }
 

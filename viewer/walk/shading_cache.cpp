@@ -86,6 +86,7 @@ float noise_of(const LiveSample& sample, const float* lanes, float count) {
 
 ShadingCache::Shades::Shades(std::size_t pixels)
     : shade(pixels),
+      cached_samples(pixels, 0.0f),
       specular_samples(pixels, 0.0f),
       mirrored(pixels, shows_nothing),
       noise(pixels, 0.0f),
@@ -93,6 +94,7 @@ ShadingCache::Shades::Shades(std::size_t pixels)
 
 void ShadingCache::Shades::clear(std::size_t pixel) {
   shade[pixel] = {};
+  cached_samples[pixel] = 0.0f;
   specular_samples[pixel] = 0.0f;
   mirrored[pixel] = shows_nothing;
   noise[pixel] = 0.0f;
@@ -154,6 +156,7 @@ void ShadingCache::see_projected(const Visibility& visibility) {
       shade = last_shades_.shade[source];
       float& samples = shade.lanes[Shade::samples_lane];
       samples = std::min(samples, most_samples);
+      shades_.cached_samples[i] = std::min(last_shades_.cached_samples[source], most_samples);
       shades_.specular_samples[i] =
           std::min(last_shades_.specular_samples[source], most_specular_samples);
       shades_.mirrored[i] = last_shades_.mirrored[source];
@@ -178,11 +181,20 @@ void ShadingCache::rest() {
 }
 
 void ShadingCache::doubt(float most) {
+  doubt_cached(most);
   for_each_row(height_, [&](int y) {
     for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) {
       float& samples = shades_.shade[i].lanes[Shade::samples_lane];
       samples = std::min(samples, most);
-      shades_.specular_samples[i] = std::min(shades_.specular_samples[i], most);
+    }
+  });
+}
+
+void ShadingCache::doubt_cached(float most) {
+  for_each_row(height_, [&](int y) {
+    for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) {
+      for (float* samples : {&shades_.cached_samples[i], &shades_.specular_samples[i]})
+        *samples = std::min(*samples, most);
     }
   });
 }
@@ -210,7 +222,7 @@ void ShadingCache::carry_over(const LiveTracer& tracer, const Reprojection& repr
       continue;
     }
     vfloat8 low(0.0f), high(0.0f);
-    float total = 0.0f, specular_samples = 0.0f, noise = 0.0f, age = 0.0f;
+    float total = 0.0f, cached_samples = 0.0f, specular_samples = 0.0f, noise = 0.0f, age = 0.0f;
     float mirrored = 0.0f, mirrors = 0.0f, refractions = 0.0f;
     if (taps.total[i] > least_share) {
       for (std::size_t tap = 0; tap < 4; ++tap) {
@@ -220,6 +232,7 @@ void ShadingCache::carry_over(const LiveTracer& tracer, const Reprojection& repr
         total += w;
         low = madd(vfloat8(w), vfloat8(from.lanes.data()), low);
         high = madd(vfloat8(w), vfloat8(from.lanes.data() + Reprojection::lanes), high);
+        cached_samples += w * last_shades_.cached_samples[index];
         specular_samples += w * last_shades_.specular_samples[index];
         noise += w * last_shades_.noise[index];
         if (last_shades_.mirrored[index] >= 0.0f) {
@@ -241,6 +254,7 @@ void ShadingCache::carry_over(const LiveTracer& tracer, const Reprojection& repr
     (high * scale).store(shade.lanes.data() + Reprojection::lanes);
     float& samples = shade.lanes[Shade::samples_lane];
     samples = std::min(samples, most_samples);
+    shades_.cached_samples[pixel] = std::min(cached_samples * scale, most_samples);
     shades_.specular_samples[pixel] = std::min(specular_samples * scale, most_specular_samples);
     float& shown = shades_.mirrored[pixel];
     shown = refractions > 0.5f * total ? shows_by_refraction : shows_nothing;
@@ -390,6 +404,8 @@ void ShadingCache::grow_older(int y) {
     if (urgency_[block_of(pixel)] >= outdating_urgency) {
       float& samples = shades_.shade[pixel].lanes[Shade::samples_lane];
       samples = std::min(samples, most_outdated_samples);
+      float& cached = shades_.cached_samples[pixel];
+      cached = std::min(cached, most_outdated_samples);
     }
     if (shades_.shade[pixel].samples() > 0.0f) {
       row.wanted += double(want(pixel));
@@ -474,10 +490,15 @@ void ShadingCache::add(const std::vector<LiveSample>& samples) {
       const float a = 1.0f / (1.0f + std::min(count, most_noise_samples));
       noise += (noise_of(sample, s.lanes.data(), count) - noise) * a;
     }
+    float& cached_count = shades_.cached_samples[sample.pixel];
     float& specular_count = shades_.specular_samples[sample.pixel];
-    const float share = 1.0f / (count + 1.0f), specular_share = 1.0f / (specular_count + 1.0f);
+    const float share = 1.0f / (count + 1.0f), cached_share = 1.0f / (cached_count + 1.0f),
+                specular_share = 1.0f / (specular_count + 1.0f);
+    // By Term.
+    const std::array<float, term_count> shares = {share, specular_share, share, cached_share,
+                                                  cached_share};
     for (std::size_t t = 0; t < term_count; ++t) {
-      const float a = t == specular_term ? specular_share : share;
+      const float a = shares[t];
       for (std::size_t c = 0; c < 3; ++c) {
         float& mean = s.lanes[3 * t + c];
         mean += (sample.terms[t][static_cast<int>(c)] - mean) * a;
@@ -490,6 +511,7 @@ void ShadingCache::add(const std::vector<LiveSample>& samples) {
       mirrored += (sample.mirrored - mirrored) * specular_share;
     }
     count += 1.0f;
+    cached_count += 1.0f;
     specular_count += 1.0f;
     shades_.age[sample.pixel] = 0;
   });

@@ -41,6 +41,8 @@ class ShadingCache {
 
   // What pixels show rests on so many samples at most from now on, > 0.
   void doubt(float most);
+  // Likewise what of it comes from cached light: indirect, caustic and specular light.
+  void doubt_cached(float most);
 
   // All pixels show nothing again.
   void forget();
@@ -75,6 +77,7 @@ class ShadingCache {
   };
   struct Shades {
     std::vector<Shade> shade;
+    std::vector<float> cached_samples;    // that indirect and caustic light rest on
     std::vector<float> specular_samples;  // that the specular term rests on
     std::vector<float> mirrored;          // vergence of what the specular term shows, LiveSample's
     std::vector<float> noise;             // mean square of what samples are off, relative
@@ -84,7 +87,8 @@ class ShadingCache {
     void clear(std::size_t pixel);
     std::size_t bytes() const {
       return shade.size() * sizeof(Shade) + age.size() * sizeof(std::uint16_t) +
-             (specular_samples.size() + noise.size()) * sizeof(float);
+             (cached_samples.size() + specular_samples.size() + mirrored.size() + noise.size()) *
+                 sizeof(float);
     }
   };
   // Of a view that rested, the pixels that edges go through: their samples, which were spread over

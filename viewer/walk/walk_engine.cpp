@@ -75,7 +75,7 @@ void WalkEngine::trace_all() {
 void WalkEngine::change_light(const std::function<void()>& change) {
   const unsigned generation = tracer_.generation();
   change();
-  if (tracer_.generation() != generation) shading_.doubt(most_outdated_samples);
+  if (tracer_.generation() != generation) shading_.doubt_cached(most_outdated_samples);
 }
 
 // The eye goes on as it went from the last frame to this one.
@@ -103,7 +103,8 @@ void WalkEngine::gather_photons(double seconds) {
 }
 
 void WalkEngine::improve(double seconds) {
-  tracer_.improve(seconds, moved_ ? share_of_refining / share_of_records * seconds : seconds);
+  tracer_.improve(seconds, moved_ ? share_of_refining / share_of_records * seconds : seconds,
+                  resting_ >= frames_to_rest);
 }
 
 // Points in image space are only guesses of what pixels show.
