@@ -33,6 +33,29 @@ TEST(pull_push, surfaces_do_not_bleed) {
         << i % width << ", " << i / width;
 }
 
+// A bright disc of which much is known on a wall of which little is: its rim stays sharp.
+TEST(pull_push, lamps_do_not_bleed_on_walls) {
+  constexpr int size = 64;
+  VisibleSurfaces seen = one_surface(size * size);
+  std::vector<Color> pixels(size * size, Color(0.0f));
+  std::vector<std::uint8_t> known(pixels.size(), 0);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const auto i = static_cast<std::size_t>(y * size + x);
+      const bool lamp = (x - 30) * (x - 30) + (y - 29) * (y - 29) < 200;
+      seen.object[i] = lamp ? 1 : 0;
+      if (!lamp && (x % 23 != 5 || y % 19 != 3)) continue;
+      known[i] = 1;
+      pixels[i] = Color(lamp ? 17.0f : 0.1f);
+    }
+  }
+  pull_push(size, size, known, seen, pixels);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    EXPECT_NEAR(pixels[i].x, seen.object[i] == 1 ? 17.0f : 0.1f, 1e-4f)
+        << i % size << ", " << i / size;
+  }
+}
+
 TEST(pull_push, keeps_what_is_known_and_fills_the_rest_between) {
   constexpr int width = 37, height = 23;
   std::vector<Color> pixels(width * height, Color(9.0f));

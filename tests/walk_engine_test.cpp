@@ -317,8 +317,7 @@ TEST(shading_cache, doubts_cached_light_alone) {
   for (std::size_t t = 0; t < term_count; ++t) {
     cache.resolve(1u << t, visibility.now(), layer);
     const bool cached = Term(t) != Term::emitted && Term(t) != Term::direct;
-    EXPECT_NEAR(layer[27].y, cached ? 1.5f : 1.0f + 1.0f / (before + 1.0f), 1e-5f)
-        << term_names[t];
+    EXPECT_NEAR(layer[27].y, cached ? 1.5f : 1.0f + 1.0f / (before + 1.0f), 1e-5f) << term_names[t];
   }
 }
 

@@ -26,6 +26,7 @@ struct Cell {
   Color mean{0.0f};     // of what is known
   float weight = 0.0f;  // [0, 1]: how much is known
   Surface surface;      // that the mean is of
+  bool sure = false;    // all of the mean is of that surface
 };
 
 struct Level {
@@ -66,13 +67,20 @@ Level half_of(int width, int height, const CellAt& cell_at) {
       }
       if (weight > 0.0f) cell.mean *= 1.0f / weight;
       cell.weight = std::min(1.0f, weight);
+      cell.sure = weight > 0.0f;
     }
   });
   return coarse;
 }
 
-// Between the four cells of the coarse level around the middle of cell (x, y) of the finer one.
-Color between(const Level& coarse, int x, int y, const Surface& surface) {
+struct Filling {
+  Color mean{0.0f};
+  bool sure = false;
+};
+
+// Between the four cells of the coarse level around the middle of cell (x, y) of the finer one, by
+// what is sure to be of the surface alone or by everything.
+Filling between(const Level& coarse, int x, int y, const Surface& surface, bool sure) {
   constexpr float near = 0.75f, far = 0.25f;
   const int cx = x / 2, cy = y / 2, dx = x % 2 == 0 ? -1 : 1, dy = y % 2 == 0 ? -1 : 1;
   Color sum(0.0f);
@@ -80,12 +88,26 @@ Color between(const Level& coarse, int x, int y, const Surface& surface) {
   for (int k = 0; k < 4; ++k) {
     const bool right = (k & 1) != 0, down = (k >> 1) != 0;
     const Cell& cell = coarse.at(right ? cx + dx : cx, down ? cy + dy : cy);
-    const float w = (right ? far : near) * (down ? far : near) *
-                    (cell.surface.same_as(surface) ? 1.0f : other_surface) * cell.weight;
+    const bool same = cell.surface.same_as(surface) && (cell.sure || !sure);
+    if (sure && !same) continue;
+    const float w = (right ? far : near) * (down ? far : near) * (same ? 1.0f : other_surface) *
+                    cell.weight;
     sum += cell.mean * w;
     total += w;
   }
-  return total > 0.0f ? sum * (1.0f / total) : Color(0.0f);
+  return {total > 0.0f ? sum * (1.0f / total) : Color(0.0f), sure && total > 0.0f};
+}
+
+// For cell (x, y) of the level below `coarse`, from the finest level that knows something of its
+// surface: beside a lamp, all cells nearby may be the lamp's.
+Filling fill(const std::vector<Level>& levels, std::size_t coarse, int x, int y,
+             const Surface& surface) {
+  for (std::size_t l = coarse; l < levels.size(); ++l) {
+    const auto up = static_cast<int>(l - coarse);
+    const Filling found = between(levels[l], x >> up, y >> up, surface, true);
+    if (found.sure) return found;
+  }
+  return between(levels[coarse], x, y, surface, false);
 }
 
 }  // namespace
@@ -105,13 +127,13 @@ void pull_push(int width, int height, const std::vector<std::uint8_t>& known,
   // The coarsest level knows if anything is known.
   for (std::size_t l = levels.size() - 1; l-- > 0;) {
     Level& fine = levels[l];
-    const Level& coarse = levels[l + 1];
     for_each_row(fine.height, [&](int y) {
       for (int x = 0; x < fine.width; ++x) {
         Cell& cell = fine.cells[std::size_t(y) * std::size_t(fine.width) + std::size_t(x)];
         if (cell.weight >= 1.0f) continue;
-        cell.mean =
-            cell.mean * cell.weight + between(coarse, x, y, cell.surface) * (1.0f - cell.weight);
+        const Filling rest = fill(levels, l + 1, x, y, cell.surface);
+        cell.sure = rest.sure && (cell.sure || !(cell.weight > 0.0f));
+        cell.mean = cell.mean * cell.weight + rest.mean * (1.0f - cell.weight);
         cell.weight = 1.0f;
       }
     });
@@ -119,7 +141,7 @@ void pull_push(int width, int height, const std::vector<std::uint8_t>& known,
   for_each_row(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-      if (known[i] == 0) pixels[i] = between(levels.front(), x, y, surface_of(i));
+      if (known[i] == 0) pixels[i] = fill(levels, 0, x, y, surface_of(i)).mean;
     }
   });
 }
