@@ -77,17 +77,19 @@ bool is_defined(Parser& parser) {
   return defined;
 }
 
+// Goes behind the block's next divider from index on. Null: it was the block's end or #else, behind
+// which reading goes on.
+const Token* next_branch(Parser& parser, std::uint32_t& index) {
+  index = next_divider(parser, index);
+  parser.frame().go_to(index + 1);
+  const Token& token = token_at(parser, index);
+  if (token.is_directive(K::end_)) parser.pop_block();
+  return token.is_directive(K::end_) || token.is_directive(K::else_) ? nullptr : &token;
+}
+
 // Skips branches from index on until one whose condition holds.
 void find_branch(Parser& parser, std::uint32_t index) {
-  for (;;) {
-    index = next_divider(parser, index);
-    parser.frame().go_to(index + 1);
-    const Token& token = token_at(parser, index);
-    if (token.is_directive(K::end_)) {
-      parser.pop_block();
-      return;
-    }
-    if (token.is_directive(K::else_)) return;
+  while (next_branch(parser, index)) {
     if (in_parentheses(parser, "#elseif")) return;
   }
 }
@@ -131,19 +133,11 @@ void begin_choice(Parser& parser, std::uint32_t index) {
   parser.expect(')', "#switch");
   head.check_end();
   constexpr double tolerance = 1e-10;  // of equal floats
-  for (;;) {
-    index = next_divider(parser, index);
-    parser.frame().go_to(index + 1);
-    const Token& token = token_at(parser, index);
-    if (token.is_directive(K::end_)) {
-      parser.pop_block();
-      return;
-    }
-    if (token.is_directive(K::else_)) return;
+  while (const Token* token = next_branch(parser, index)) {
     parser.expect('(', "#case");
     const double low = parse_float(parser, "#case");
     double high = low;
-    if (token.is_directive(K::range_)) {
+    if (token->is_directive(K::range_)) {
       parser.accept(',');
       high = parse_float(parser, "#range");
     }

@@ -35,37 +35,15 @@ Number parse_vector_literal(Parser& parser) {
   return vector;
 }
 
-// The component that a word after the dot names; -1: none.
-int component(Parser& parser, const Token& token) {
-  switch (token.keyword()) {
-    case K::x_:
-    case K::u_:
-    case K::red_:
-      return 0;
-    case K::y_:
-    case K::v_:
-    case K::green_:
-      return 1;
-    case K::z_:
-    case K::blue_:
-      return 2;
-    case K::t_:
-    case K::filter_:
-      return 3;
-    case K::transmit_:
-      return 4;
-    default:
-      parser.fail_expected("the name of a component, such as x or red,");
-  }
-}
-
 void parse_components(Parser& parser, Number& number) {
   while (parser.accept('.')) {
     if (parser.accept(K::gray_)) {
       number = Number(0.297 * number.n[0] + 0.589 * number.n[1] + 0.114 * number.n[2]);
       continue;
     }
-    const auto index = static_cast<std::size_t>(component(parser, parser.peek()));
+    const std::optional<std::size_t> named = component_of(parser.peek().keyword());
+    if (!named) parser.fail_expected("the name of a component, such as x or red,");
+    const std::size_t index = *named;
     parser.take();
     if (number.size == 1) number.n.fill(number.n[0]);
     if (number.size > 1 && index >= number.size) number.n[index] = 0.0;

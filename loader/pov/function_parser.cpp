@@ -150,29 +150,11 @@ class FunctionParser {
 
   int component_of_result() {
     if (!parser_.accept('.')) return 0;
-    switch (parser_.take().keyword()) {
-      case K::x_:
-      case K::u_:
-      case K::red_:
-        return 0;
-      case K::y_:
-      case K::v_:
-      case K::green_:
-        return 1;
-      case K::z_:
-      case K::blue_:
-        return 2;
-      case K::t_:
-      case K::filter_:
-        return 3;
-      case K::transmit_:
-        return 4;
-      case K::gray_:
-      case K::hf_gray_16_:
-        return gray_component;
-      default:
-        parser_.fail("the name of a component is expected after '.' in a function");
-    }
+    const K word = parser_.take().keyword();
+    if (word == K::gray_ || word == K::hf_gray_16_) return gray_component;
+    const std::optional<std::size_t> named = component_of(word);
+    if (!named) parser_.fail("the name of a component is expected after '.' in a function");
+    return static_cast<int>(*named);
   }
 
   std::uint32_t identifier(const Token& token) {

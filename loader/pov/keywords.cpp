@@ -28,6 +28,29 @@ std::string_view keyword_text(K keyword) {
   return keyword_texts[static_cast<std::size_t>(keyword)];
 }
 
+std::optional<std::size_t> component_of(K word) {
+  switch (word) {
+    case K::x_:
+    case K::u_:
+    case K::red_:
+      return 0;
+    case K::y_:
+    case K::v_:
+    case K::green_:
+      return 1;
+    case K::z_:
+    case K::blue_:
+      return 2;
+    case K::t_:
+    case K::filter_:
+      return 3;
+    case K::transmit_:
+      return 4;
+    default:
+      return std::nullopt;
+  }
+}
+
 std::string_view usual_spelling(std::string_view word) {
   const auto known = std::find_if(spellings.begin(), spellings.end(),
                                   [&](const auto& s) { return s.first == word; });

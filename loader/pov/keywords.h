@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace lumivec::pov {
@@ -90,5 +91,8 @@ std::string_view keyword_text(K keyword);
 
 // The spelling that stands for all: "color" for "colour".
 std::string_view usual_spelling(std::string_view word);
+
+// Which number of a vector or color a word after a dot names, from 0 on; none: no component's name.
+std::optional<std::size_t> component_of(K word);
 
 }  // namespace lumivec::pov

@@ -90,8 +90,8 @@ Filling between(const Level& coarse, int x, int y, const Surface& surface, bool 
     const Cell& cell = coarse.at(right ? cx + dx : cx, down ? cy + dy : cy);
     const bool same = cell.surface.same_as(surface) && (cell.sure || !sure);
     if (sure && !same) continue;
-    const float w = (right ? far : near) * (down ? far : near) * (same ? 1.0f : other_surface) *
-                    cell.weight;
+    const float w =
+        (right ? far : near) * (down ? far : near) * (same ? 1.0f : other_surface) * cell.weight;
     sum += cell.mean * w;
     total += w;
   }
