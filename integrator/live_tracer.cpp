@@ -77,6 +77,16 @@ struct LiveTracer::State {
 
   bool cached() const { return settings.integrator == Integrator::light_vectors; }
 
+  // Of cached light, as there is.
+  CacheUse use() const {
+    if (!builder) return {};
+    CacheUse use = builder->use();
+    if (level + 1 < slacks.size()) use.budget *= slacks[level + 1];
+    for (std::size_t i = 0; i < meanwhile_slacks.size(); ++i)
+      use.meanwhile_budgets[i] = use.budget * meanwhile_slacks[i];
+    return use;
+  }
+
   void set_error(double wanted) {
     if (error == wanted) return;
     error = wanted;
@@ -341,13 +351,7 @@ void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
   std::vector<LiveRequest> wanted(requests.size());
   for (const LiveRequest& r : requests) wanted[next[tile_of(r)]++] = r;
   samples.resize(requests.size());
-  CacheUse use;
-  if (s.builder) {
-    use = s.builder->use();
-    if (s.level + 1 < slacks.size()) use.budget *= slacks[s.level + 1];
-    for (std::size_t i = 0; i < meanwhile_slacks.size(); ++i)
-      use.meanwhile_budgets[i] = use.budget * meanwhile_slacks[i];
-  }
+  const CacheUse use = s.use();
   s.arena.execute([&] {
     const Tile picture = {0, 0, s.settings.width, s.settings.height};
     for_each((wanted.size() + chunk_size - 1) / chunk_size, [&](std::size_t chunk) {
@@ -419,6 +423,31 @@ bool LiveTracer::improve(double seconds, double refining_seconds, bool resting) 
   s.statistics.records = s.cache.size();
   s.statistics.cache_bytes = s.cache.bytes() + s.photons.bytes();
   return all;
+}
+
+std::optional<IncidentLight> LiveTracer::incident_light(int x, int y) const {
+  State& s = *state_;
+  const PictureRays rays = s.view->rays();
+  const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
+  const V3f origin = rays.origin + rays.origin_x * px + rays.origin_y * py;
+  const V3f direction =
+      (rays.direction + rays.direction_x * px + rays.direction_y * py).normalized();
+  float near = 0.0f;
+  for (;;) {
+    const RayHit hit =
+        s.traced->intersect(origin, direction, near, std::numeric_limits<float>::infinity(), 0);
+    if (!hit.valid()) return std::nullopt;
+    const SurfacePoint point = s.traced->surface(hit, origin, direction);
+    if (culled(point)) {
+      near = next_distance(hit.distance, point.error);
+      continue;
+    }
+    std::optional<IncidentLight> light;
+    s.arena.execute([&] {
+      light = lumivec::incident_light(*s.tracer, point, s.use(), s.view->footprint(hit.distance));
+    });
+    return light;
+  }
 }
 
 std::vector<RecordMark> LiveTracer::records() const {

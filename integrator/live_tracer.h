@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "integrator/camera_view.h"
 #include "integrator/framebuffer.h"
+#include "integrator/incident_light.h"
 #include "integrator/record_mark.h"
 #include "integrator/settings.h"
 #include "integrator/visible_surfaces.h"
@@ -104,6 +106,10 @@ class LiveTracer {
   // Another number whenever cached light has become better as a whole, so that samples taken before
   // are worth less.
   unsigned generation() const;
+
+  // Indirect light where the eye sees something through the middle of a pixel; none: there is
+  // nothing.
+  std::optional<IncidentLight> incident_light(int x, int y) const;
 
   // All records of indirect light, as the present view uses them.
   std::vector<RecordMark> records() const;

@@ -631,6 +631,21 @@ TEST_F(WindowTest, DrawsRecordsOverThePicture) {
   EXPECT_GT(outlined(shot("records.png")), outlined(shot("before.png")) + 200);
 }
 
+// The slice of the icosahedron at the picked point lies over the picture while records are shown.
+TEST_F(WindowTest, ShowsWhatArrivesAtThePickedPoint) {
+  replay(
+      "until samples 2\ndouble 70 150\nuntil picked\nkey Tab\nkey J\nuntil records\n"
+      "frames 3\nstate on.json\nshot slice.png\n");
+  EXPECT_GT(state("on.json")["incident_faces"], 150);
+  EXPECT_GT(state("on.json")["incident_records"], 0);
+  // The brightest face is of the heat map's last color.
+  const Shot& slice = shot("slice.png");
+  int bright = 0;
+  for (std::size_t i = 0; i + 2 < slice.rgb.size(); i += 3)
+    bright += slice.rgb[i] > 250 && slice.rgb[i + 1] > 240 && slice.rgb[i + 2] < 215 ? 1 : 0;
+  EXPECT_GT(bright, 10);
+}
+
 // Clicks all over the panels: nothing ends the program, and files stay as they are.
 TEST_F(WindowTest, EndsForNoClick) {
   std::string script = "until loaded\ndouble 60 150\nframes 3\n";

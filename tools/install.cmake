@@ -7,7 +7,8 @@ set(lumivec_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lumivec)
 # The interface; the other headers of these folders belong to the libraries' insides.
 install(FILES loader/animate.h loader/error.h loader/load_scene.h loader/scene.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lumivec/loader)
-install(FILES integrator/framebuffer.h integrator/render.h integrator/settings.h
+install(FILES
+  integrator/check_settings.h integrator/framebuffer.h integrator/render.h integrator/settings.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lumivec/integrator)
 
 install(TARGETS lumivec DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -60,6 +60,10 @@ class WalkEngine {
 
   // Records of cached light, as the last frame used them.
   std::vector<RecordMark> records() const { return tracer_.records(); }
+  // Where the last frame's pixel (x, y) sees something.
+  std::optional<IncidentLight> incident_light(int x, int y) const {
+    return tracer_.incident_light(x, y);
+  }
 
   struct Caches {
     CacheSize records, photons, shading;  // entries: records, photons, pixels that show something

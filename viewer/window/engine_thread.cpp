@@ -194,6 +194,8 @@ class EngineThread::Worker {
     pick.center = center_of(scene_->scene, pick.object);
     pick.point =
         point_seen(view.camera, width_, height_, x + 0.5, y + 0.5, double(seen.depth[pixel]));
+    if (const std::optional<IncidentLight> light = engine_->incident_light(x, y))
+      pick.light = std::make_shared<const IncidentLight>(*light);
     return pick;
   }
 

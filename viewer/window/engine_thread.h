@@ -37,9 +37,10 @@ struct PickQuestion {
 };
 struct PickAnswer {
   std::uint64_t number = 0;
-  int object = -1;  // index into Scene::instances; -1: nothing is there
-  V3d point{0.0};   // world space
-  V3d center{0.0};  // of the object, in its own space
+  int object = -1;                             // index into Scene::instances; -1: nothing is there
+  V3d point{0.0};                              // world space
+  V3d center{0.0};                             // of the object, in its own space
+  std::shared_ptr<const IncidentLight> light;  // that arrives there; null: nothing is there
 };
 
 struct ViewRequest {

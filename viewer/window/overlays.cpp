@@ -240,6 +240,8 @@ void draw_status(const WindowState& state, const PanelInput& input) {
 
 void draw_overlays(WindowState& state, const PanelInput& input, double now) {
   if (state.show_records && state.knobs.light_vectors) draw_records(input);
+  if (state.show_records && state.picked && state.picked->light)
+    draw_incident_light(*state.picked->light, input);
   if (state.show_histogram) draw_histogram(input);
   if (state.show_inspector) draw_inspector(input);
   const bool light = state.layer == Layer::light;

@@ -42,6 +42,8 @@ void draw_side_panel(WindowState& state, const PanelInput& input, const DisplayN
                      std::optional<EditWish>& edit);
 void draw_edit_section(WindowState& state, const PanelInput& input, std::optional<EditWish>& edit);
 void draw_status(const WindowState& state, const PanelInput& input);
+// What arrives at the picked point, by direction.
+void draw_incident_light(const IncidentLight& light, const PanelInput& input);
 // Help, histogram, inspector, legend, files and messages; now: seconds of the program's clock.
 void draw_overlays(WindowState& state, const PanelInput& input, double now);
 

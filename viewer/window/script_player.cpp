@@ -263,6 +263,8 @@ void ScriptPlayer::write_state(const fs::path& file) {
       {"files", s.show_files},
       {"keys", s.path_keys.size()},
       {"picked", s.picked ? s.picked->object : -1},
+      {"incident_faces", s.picked && s.picked->light ? s.picked->light->faces.size() : 0},
+      {"incident_records", s.picked && s.picked->light ? s.picked->light->records : 0},
       {"edits", window_.edits_done()},
       {"changed", status.scene ? patch_text(window_.patch(), status.scene->scene) : ""},
       {"message", s.message},
