@@ -171,7 +171,8 @@ void PathStream::start(Lane& lane, std::uint64_t path) {
   lane.direction = ray.direction;
   lane.near = ray.near;
   lane.far = ray.far;
-  lane.throughput = Color(1.0f);
+  lane.throughput = Color(ray.black ? 0.0f : 1.0f);
+  if (ray.black) lane.near = lane.far = 0.0f;
   lane.hit_depth = std::numeric_limits<float>::infinity();
   ++statistics_.samples;
 }

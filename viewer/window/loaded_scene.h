@@ -25,7 +25,7 @@ struct LoadedScene {
   Imath::Box3d bounds;  // world space
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> files;  // read besides the scene file, LoadReport's
-  double seconds = 0.0;  // to load it
+  double seconds = 0.0;                      // to load it
 };
 
 // Throws what loading throws.
