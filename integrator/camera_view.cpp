@@ -1,5 +1,6 @@
 #include "integrator/camera_view.h"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -21,7 +22,11 @@ CameraView::CameraView(const Camera& camera, const TracedScene& scene, int width
   up_ = V3f(back.cross(right));
   forward_ = V3f(-back);
   const float aspect = width_ / height_;
-  if (kind_ == CameraKind::perspective) {
+  if (is_wide(camera)) {
+    lens_.emplace(camera, aspect);
+    half_height_ = 0.5f * height_ * static_cast<float>(lens_->pixel_height(height));
+    half_width_ = half_height_ * aspect;
+  } else if (kind_ == CameraKind::perspective) {
     half_height_ = std::tan(0.5f * camera.yfov);
     half_width_ = half_height_ * aspect;
   } else {
@@ -31,6 +36,7 @@ CameraView::CameraView(const Camera& camera, const TracedScene& scene, int width
 }
 
 CameraRay CameraView::ray(float x, float y) const {
+  if (lens_) return wide_ray(x, y);
   const float sx = (2.0f * x / width_ - 1.0f) * half_width_;
   const float sy = (1.0f - 2.0f * y / height_) * half_height_;
   CameraRay ray;
@@ -50,7 +56,24 @@ CameraRay CameraView::ray(float x, float y) const {
   return ray;
 }
 
+CameraRay CameraView::wide_ray(float x, float y) const {
+  const V2d at(double(x) / double(width_) - 0.5, 0.5 - double(y) / double(height_));
+  CameraRay ray;
+  ray.origin = position_;
+  ray.direction = forward_;
+  ray.near = near_;
+  ray.far = far_;
+  V3d seen;
+  ray.black = !lens_->direction(at, seen);
+  if (!ray.black) {
+    const V3f d(seen);
+    ray.direction = (right_ * d.x + up_ * d.y - forward_ * d.z).normalized();
+  }
+  return ray;
+}
+
 PictureRays CameraView::rays() const {
+  assert(!lens_);
   const V3f x = right_ * (2.0f * half_width_ / width_), y = up_ * (-2.0f * half_height_ / height_);
   const V3f corner = up_ * half_height_ - right_ * half_width_;
   PictureRays rays;
@@ -68,6 +91,7 @@ PictureRays CameraView::rays() const {
 }
 
 PicturePlane CameraView::plane() const {
+  assert(!lens_);
   PicturePlane plane;
   plane.eye = position_;
   plane.forward = forward_;
@@ -91,6 +115,7 @@ float CameraView::visible_distance(const V3f& p, float distance) const {
 bool CameraView::project(const V3f& p, V2f& pixel, V3f& to_eye, float& distance,
                          float& importance) const {
   const V3f offset = p - position_;
+  if (lens_) return project_wide(offset, pixel, to_eye, distance, importance);
   const float z = offset.dot(forward_);
   if (!(z > 0.0f) || z < near_ || z > far_) return false;
   const bool perspective = kind_ == CameraKind::perspective;
@@ -113,6 +138,23 @@ bool CameraView::project(const V3f& p, V2f& pixel, V3f& to_eye, float& distance,
     importance = 1.0f / pixel_area;
   }
   return true;
+}
+
+bool CameraView::project_wide(const V3f& offset, V2f& pixel, V3f& to_eye, float& distance,
+                              float& importance) const {
+  distance = offset.length();
+  if (!(distance > 0.0f) || distance < near_ || distance > far_) return false;
+  const V3d direction = V3d(offset.dot(right_), offset.dot(up_), -offset.dot(forward_)) /
+                        static_cast<double>(distance);
+  V2d at;
+  if (!lens_->project(direction, at)) return false;
+  pixel = V2f(V2d((at.x + 0.5) * double(width_), (0.5 - at.y) * double(height_)));
+  to_eye = offset * (-1.0f / distance);
+  // All that a pixel receives comes from its solid angle.
+  const double solid_angle = lens_->solid_angle(at) / (double(width_) * double(height_));
+  if (!(solid_angle > 0.0)) return false;
+  importance = static_cast<float>(1.0 / (solid_angle * double(distance) * double(distance)));
+  return std::isfinite(importance);
 }
 
 }  // namespace lumivec

@@ -1,8 +1,11 @@
 // A camera made ready to shoot rays through pixels, in traced space.
 #pragma once
 
+#include <optional>
+
 #include "integrator/settings.h"
 #include "integrator/traced_scene.h"
+#include "integrator/wide_lens.h"
 #include "loader/scene.h"
 
 namespace lumivec {
@@ -11,6 +14,7 @@ struct CameraRay {
   V3f origin;                     // traced space
   V3f direction;                  // unit
   float near = 0.0f, far = 0.0f;  // distances along the ray between which the eye sees
+  bool black = false;  // the picture ends before this pixel: round ones do not fill theirs
 };
 
 // The rays through a picture, for loops over its pixels: the one through the point (x, y), pixels
@@ -44,13 +48,16 @@ class CameraView {
   // Through the point (x, y) of the picture, pixels from its upper left corner.
   CameraRay ray(float x, float y) const;
 
+  // Of flat views alone: perspective and orthographic ones.
   PictureRays rays() const;
   PicturePlane plane() const;
 
-  // Distance of a traced-space point along the view axis.
-  float depth(const V3f& p) const { return (p - position_).dot(forward_); }
+  // Distance of a traced-space point along the view axis; of wide views: from the eye.
+  float depth(const V3f& p) const {
+    return lens_ ? (p - position_).length() : (p - position_).dot(forward_);
+  }
 
-  // Size of a pixel at a distance from the eye, scene units.
+  // Size of a pixel in the middle of the picture at a distance from the eye, scene units.
   float footprint(float distance) const;
 
   // How much of the distance from p to the eye must be free for the eye to see it: all but what
@@ -63,7 +70,12 @@ class CameraView {
   bool project(const V3f& p, V2f& pixel, V3f& to_eye, float& distance, float& importance) const;
 
  private:
+  CameraRay wide_ray(float x, float y) const;
+  bool project_wide(const V3f& offset, V2f& pixel, V3f& to_eye, float& distance,
+                    float& importance) const;
+
   CameraKind kind_;
+  std::optional<WideLens> lens_;
   V3f position_, right_, up_, forward_;
   float half_width_ = 0.0f, half_height_ = 0.0f;  // at unit distance; orthographic: scene units
   float near_ = 0.0f, far_ = 0.0f;

@@ -210,6 +210,10 @@ bool LightTracer::start(float u_source, const V2f& u_point, float u_aim, const V
     }
     case EmitterKind::point:
     case EmitterKind::spot:
+      out.origin = e.origin + shadow_offset(*e.light, u_point);
+      if (e.light->fade_distance > 0.0f) out.light = e.light;
+      break;
+    case EmitterKind::beam:
     case EmitterKind::ellipsoid:
       break;
   }
@@ -289,6 +293,9 @@ void LightTracer::trace_path(std::uint64_t path, bool past_broad, RenderStatisti
     const SurfacePoint point = scene_.surface(hit, origin, direction);
     const Material& material = *point.material;
     if (material.unlit) return;
+    // Beams that spread thin out with the square by themselves.
+    if (depth == 0 && begin.light)
+      weight *= faded(*begin.light, hit.distance) * hit.distance * hit.distance;
     const Material* medium = media.top();
     // A lamp inside a volume finds out where its light comes to the boundary.
     if (!medium && !point.front && material.transmission > 0.0f && !material.thin_walled) {
@@ -344,11 +351,14 @@ void LightTracer::trace_path(std::uint64_t path, bool past_broad, RenderStatisti
 // What the eye looks through (surface.h) hides nothing from it.
 bool LightTracer::visible_to_eye(const SurfacePoint& point, const V3f& to_eye, float distance,
                                  std::uint32_t seed, RenderStatistics& statistics) const {
-  if (culled(point)) return false;
+  const auto shown = [&](const SurfacePoint& p) {
+    return (scene_.instances()[std::size_t(p.instance)].seen_by & eye_ray) != 0;
+  };
+  if (culled(point) || !shown(point)) return false;
   const V3f origin = offset_origin(point, to_eye);
   const float end = camera_.visible_distance(point.position, distance) * eye_ray_end;
   for (float near = 0.0f; near < end;) {
-    const RayHit hit = scene_.intersect(origin, to_eye, near, end, seed);
+    const RayHit hit = scene_.intersect(origin, to_eye, near, end, seed, mask_of(eye_ray));
     ++statistics.rays_shadow;
     if (!hit.valid()) return true;
     const SurfacePoint between = scene_.surface(hit, origin, to_eye);

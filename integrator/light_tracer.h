@@ -71,6 +71,7 @@ class LightTracer {
   struct Start {
     V3f origin, direction;
     Color flux;  // radiance · cosine / density, or its analogue for punctual lights
+    const Light* light = nullptr;  // punctual: where it fades in its own way
   };
 
   // Whether eye paths leave a path to light paths that goes on to the eye by a lobe of the kind.

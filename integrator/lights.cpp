@@ -37,6 +37,10 @@ float mean(const Color& c) {
   return (c.x + c.y + c.z) * (1.0f / 3.0f);
 }
 
+float smooth_step(float t) {
+  return t * t * (3.0f - 2.0f * t);
+}
+
 float max_abs(const V3f& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -223,11 +227,14 @@ void Lights::add_light(const Light& light) {
   const M44d& m = light.object_to_world;
   const V3f axis = V3f(-V3d(m[2][0], m[2][1], m[2][2]).normalized());
   if (light.kind == LightKind::directional) {
-    directional_.push_back({-axis, light.intensity});
+    directional_.push_back({-axis, light.intensity, light.casts_shadows});
     return;
   }
   Emitter emitter;
-  emitter.kind = light.kind == LightKind::spot ? EmitterKind::spot : EmitterKind::point;
+  emitter.kind = light.kind == LightKind::spot   ? EmitterKind::spot
+                 : light.kind == LightKind::beam ? EmitterKind::beam
+                                                 : EmitterKind::point;
+  emitter.light = &light;
   emitter.origin = V3f(V3d(m[3][0], m[3][1], m[3][2]) - scene_.origin());
   emitter.edge_u = axis;
   emitter.emission = light.intensity;
@@ -235,6 +242,11 @@ void Lights::add_light(const Light& light) {
   bounds.min = bounds.max = emitter.origin;
   bounds.axis = axis;
   bounds.intensity = mean(light.intensity);
+  // The tree knows only lights that fall off with the square: equal to this one across the scene.
+  if (light.fade_distance > 0.0f) {
+    const float across = scene_.radius();
+    bounds.intensity *= faded(light, across) * across * across;
+  }
   if (light.kind == LightKind::spot) {
     emitter.cos_inner = std::cos(light.inner_cone);
     emitter.cos_outer = std::cos(light.outer_cone);
@@ -282,6 +294,7 @@ V3f Lights::far_along(const V3f& p, const V3f& direction) const {
 bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u,
                     LightSample& out) const {
   out.environment = false;
+  out.shadowed = true;
   if (directional_.empty() && environment_.black()) {
     float probability;
     const int index = tree_.sample(p, normal, u_light, probability);
@@ -319,6 +332,7 @@ bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u
       out.radiance = light.illuminance;
       out.pdf = probability;
       out.delta = true;
+      out.shadowed = light.casts_shadows;
       out.light_traced = leaves_caustics_;
       return true;
     }
@@ -329,10 +343,32 @@ bool Lights::sample(const V3f& p, const V3f& normal, float u_light, const V2f& u
 
 float spot_falloff(const Emitter& spot, const V3f& direction) {
   const float cosine = direction.dot(spot.edge_u);
-  if (cosine >= spot.cos_inner) return 1.0f;
   if (cosine <= spot.cos_outer) return 0.0f;
+  const float within =
+      spot.light && spot.light->tightness > 0.0f ? std::pow(cosine, spot.light->tightness) : 1.0f;
+  if (cosine >= spot.cos_inner) return within;
   const float ramp = (cosine - spot.cos_outer) / (spot.cos_inner - spot.cos_outer);
-  return ramp * ramp;
+  return within * (spot.light && spot.light->smooth_edge ? smooth_step(ramp) : ramp * ramp);
+}
+
+float faded(const Light& light, float distance) {
+  if (!(light.fade_distance > 0.0f)) return 1.0f / (distance * distance);
+  return 2.0f / (1.0f + std::pow(distance / light.fade_distance, light.fade_power));
+}
+
+V3f shadow_offset(const Light& light, const V2f& u) {
+  const V2f at = light.round_shadows ? sample_disc(u) : V2f(2.0f * u.x - 1.0f, 2.0f * u.y - 1.0f);
+  return light.shadow_u * at.x + light.shadow_v * at.y;
+}
+
+// What is left of a beam so far from its axis.
+float beam_falloff(const Light& beam, float from_axis) {
+  if (from_axis >= beam.outer_radius) return 0.0f;
+  const float left = 1.0f - from_axis / beam.outer_radius;
+  const float within = beam.tightness > 0.0f ? std::pow(left, beam.tightness) : 1.0f;
+  if (from_axis <= beam.inner_radius) return within;
+  return within *
+         smooth_step((beam.outer_radius - from_axis) / (beam.outer_radius - beam.inner_radius));
 }
 
 bool Lights::sample_emitter(const Emitter& e, const V3f& p, const V2f& u, LightSample& out) const {
@@ -348,13 +384,28 @@ bool Lights::sample_emitter(const Emitter& e, const V3f& p, const V2f& u, LightS
       if (!(d2 > 0.0f)) return false;
       out.distance = std::sqrt(d2);
       out.direction = to_light * (1.0f / out.distance);
-      out.target = e.origin;
-      out.radiance = e.emission * (1.0f / d2);
+      out.target = e.origin + shadow_offset(*e.light, u);
+      out.shadowed = e.light->casts_shadows;
+      out.radiance = e.emission * faded(*e.light, out.distance);
       if (e.kind == EmitterKind::spot) {
         const float falloff = spot_falloff(e, -out.direction);
         if (falloff <= 0.0f) return false;
         out.radiance *= falloff;
       }
+      out.pdf = 1.0f;
+      out.delta = true;
+      return true;
+    }
+    case EmitterKind::beam: {
+      const V3f along = p - e.origin;
+      out.distance = along.dot(e.edge_u);
+      if (!(out.distance > 0.0f)) return false;
+      const float falloff = beam_falloff(*e.light, (along - e.edge_u * out.distance).length());
+      if (!(falloff > 0.0f)) return false;
+      out.direction = -e.edge_u;
+      out.target = p - e.edge_u * out.distance;
+      out.shadowed = e.light->casts_shadows;
+      out.radiance = e.emission * (falloff * faded(*e.light, out.distance));
       out.pdf = 1.0f;
       out.delta = true;
       return true;
@@ -507,6 +558,7 @@ float Lights::emitter_pdf(const Emitter& e, const V3f& p, const SurfacePoint& hi
     }
     case EmitterKind::point:
     case EmitterKind::spot:
+    case EmitterKind::beam:
       break;
   }
   return 0.0f;
@@ -550,6 +602,7 @@ void Lights::leave_caustics_to_light_paths(bool of_large_lights) {
       e.light_traced = true;
       continue;
     }
+    if (e.kind == EmitterKind::beam) continue;  // no photons leave it
     const bool simple = !e.varying && e.kind != EmitterKind::ellipsoid;
     const float size =
         e.kind == EmitterKind::sphere ? e.radius : std::max(e.edge_u.length(), e.edge_v.length());

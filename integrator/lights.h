@@ -11,7 +11,7 @@
 
 namespace lumivec {
 
-enum class EmitterKind : std::uint8_t { triangle, rectangle, sphere, ellipsoid, point, spot };
+enum class EmitterKind : std::uint8_t { triangle, rectangle, sphere, ellipsoid, point, spot, beam };
 
 // A light of finite position, traced space.
 struct Emitter {
@@ -21,23 +21,32 @@ struct Emitter {
   int instance = -1;                         // Scene::instances; -1 for punctual lights
   unsigned primitive = 0;                    // triangle: of the mesh
   V3f origin{0.0f};                          // first corner; centre; position
-  V3f edge_u{0.0f}, edge_v{0.0f};            // triangle, rectangle; spot: edge_u is the axis
+  V3f edge_u{0.0f}, edge_v{0.0f};            // triangle, rectangle; spot, beam: edge_u is the axis
   float radius = 0.0f;                       // sphere
   float cos_inner = 1.0f, cos_outer = 0.0f;  // spot
   float error = 0.0f;                        // how far shadow rays must end before its surface
   bool light_traced = false;                 // caustics from here are left to light paths
-  Color emission{0.0f};                      // mean radiance, cd·m⁻²; punctual: intensity, cd
+  Color emission{0.0f};          // mean radiance, cd·m⁻²; punctual: intensity, cd, or
+                                 // that of light
+  const Light* light = nullptr;  // punctual: what it was made from
 };
 
 // A light so far away that its rays are parallel.
 struct DirectionalLight {
   V3f direction;      // unit, toward the light
   Color illuminance;  // on a facing surface, lx
+  bool casts_shadows = true;
 };
 
 // The ramp between a spot's cones, [0, 1]; direction: unit, away from the light
 // (KHR_lights_punctual).
 float spot_falloff(const Emitter& spot, const V3f& direction);
+
+// Illuminance of a facing surface at a distance (> 0, scene units) by a punctual light's intensity.
+float faded(const Light& light, float distance);
+
+// From the middle of a light to the point where shadow rays to it end, by random numbers in [0, 1).
+V3f shadow_offset(const Light& light, const V2f& u);
 
 // One way in which light may reach the receiving point, unoccluded.
 struct LightSample {
@@ -49,6 +58,7 @@ struct LightSample {
   bool light_traced = false;  // its caustics are left to light paths
   bool delta = false;         // no scattered ray can find this light
   bool environment = false;
+  bool shadowed = true;  // false: nothing is in its way
 };
 
 class Lights {

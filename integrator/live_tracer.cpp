@@ -107,6 +107,7 @@ struct LiveTracer::State {
                   VisibleSurfaces& seen) const {
     RTCRayHit8 packet;
     set_constants(packet.ray);
+    std::fill_n(packet.ray.mask, packet_size, mask_of(eye_ray));
     std::uint32_t seeds[packet_size] = {};
     alignas(32) int valid[packet_size];
     std::array<V3f, packet_size> direction;

@@ -11,6 +11,7 @@ struct FilteredHit {
   unsigned lane;
   V3f origin, direction;
   RayHit hit;
+  RayMask mask;
 };
 
 FilteredHit filtered_hit(const RTCFilterFunctionNArguments& arguments, unsigned i) {
@@ -23,6 +24,7 @@ FilteredHit filtered_hit(const RTCFilterFunctionNArguments& arguments, unsigned 
   result.direction = {RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i)};
   result.hit = {RTCRayN_tfar(ray, n, i),   RTCHitN_u(hit, n, i),      RTCHitN_v(hit, n, i),
                 RTCHitN_geomID(hit, n, i), RTCHitN_primID(hit, n, i), RTCHitN_instID(hit, n, i, 0)};
+  result.mask = RTCRayN_mask(ray, n, i);
   return result;
 }
 
@@ -36,6 +38,10 @@ void bring_to_traced_space(const TracedScene& scene, int instance, FilteredHit& 
   m.multDirMatrix(V3d(f.direction) * unit, direction);
   f.origin = V3f(V3d(f.origin) * unit * m);
   f.direction = V3f(direction);
+}
+
+bool hidden(const TracedInstance& instance, RayMask mask) {
+  return (instance.seen_by & mask & ray_kinds) == 0;
 }
 
 // Whether the ray with this seed finds the surface there.
@@ -57,6 +63,10 @@ void filter_intersection(const RTCFilterFunctionNArguments* arguments) {
     FilteredHit f = filtered_hit(*arguments, i);
     const int index = query.scene->instance_of(f.hit);
     const TracedInstance& instance = query.scene->instances()[std::size_t(index)];
+    if (hidden(instance, f.mask)) {
+      arguments->valid[i] = 0;
+      continue;
+    }
     if (instance.material->alpha_mode == AlphaMode::opaque) continue;
     bring_to_traced_space(*query.scene, index, f);
     const SurfacePoint point = query.scene->surface(f.hit, f.origin, f.direction);
@@ -71,7 +81,12 @@ void filter_occlusion(const RTCFilterFunctionNArguments* arguments) {
     if (arguments->valid[i] == 0) continue;
     FilteredHit f = filtered_hit(*arguments, i);
     const int index = query.scene->instance_of(f.hit);
-    const Material& material = *query.scene->instances()[std::size_t(index)].material;
+    const TracedInstance& instance = query.scene->instances()[std::size_t(index)];
+    if (hidden(instance, f.mask)) {
+      arguments->valid[i] = 0;
+      continue;
+    }
+    const Material& material = *instance.material;
     const bool maybe_thin = query.transmittance && material.transmission > 0.0f &&
                             material.thin_walled && !material.unlit;
     if (material.alpha_mode == AlphaMode::opaque && !maybe_thin) continue;

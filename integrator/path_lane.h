@@ -8,6 +8,7 @@
 #include "integrator/bsdf.h"
 #include "integrator/caustic_state.h"
 #include "integrator/media.h"
+#include "integrator/ray_packet.h"
 #include "integrator/settings.h"
 #include "integrator/sobol.h"
 #include "integrator/surface.h"
@@ -56,8 +57,9 @@ struct PathStop {
 struct PathLane {
   bool active = false;
   bool camera_ray = false;
-  bool ended = false;       // nothing more to trace but perhaps a shadow ray
-  std::uint32_t pixel = 0;  // of the tile
+  RayMask ray_kind = other_ray;  // of the ray that is traced next
+  bool ended = false;            // nothing more to trace but perhaps a shadow ray
+  std::uint32_t pixel = 0;       // of the tile
   std::uint32_t sample = 0;
   std::uint32_t seed = 0;          // of the pixel
   std::uint32_t continuation = 0;  // of the splits that leave the first vertex
@@ -85,6 +87,7 @@ struct PathLane {
   // The diffuse lobe has the direct light of the environment's even part there.
   bool even_cached = false;
   bool shadow = false;
+  RayMask shadow_mask = all_rays;  // 0: nothing is in the way
   V3f shadow_origin{0.0f}, shadow_target{0.0f};
   // If nothing is in between: of non-specular and of specular lobes.
   Color shadow_light[2] = {Color(0.0f), Color(0.0f)};

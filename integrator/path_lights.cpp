@@ -57,6 +57,7 @@ void PathStream::sample_light(Lane& lane, const SurfacePoint& point, const Bsdf&
   lane.shadow = any_shadow_light(lane);
   lane.shadow_origin = offset_origin(point, light.direction);
   lane.shadow_target = light.target;
+  lane.shadow_mask = !light.shadowed ? 0 : mask_of(light.delta ? shadow_ray : other_ray);
 }
 
 void PathStream::add_scattered(Lane& lane, const Bsdf& bsdf, const Bsdf& scattered,
@@ -139,6 +140,7 @@ void PathStream::sample_sky(Lane& lane, const Stop& stop, std::uint32_t number) 
   lane.shadow = any_shadow_light(lane);
   lane.shadow_origin = offset_origin(stop.point, direction);
   lane.shadow_target = lights.far_along(stop.point.position, direction);
+  lane.shadow_mask = mask_of(other_ray);
 }
 
 void PathStream::take_even(Lane& lane, const Color& diffuse, const Color& radiance) const {

@@ -139,6 +139,7 @@ void PathStream::start(Lane& lane, std::uint64_t path) {
   lane.active = true;
   lane.caustic.photons = cache_.photons != nullptr;
   lane.camera_ray = true;
+  lane.ray_kind = eye_ray;
   bool centered = false;
   std::uint32_t pixel;
   if (ranges_) {
@@ -171,7 +172,8 @@ void PathStream::start(Lane& lane, std::uint64_t path) {
   lane.direction = ray.direction;
   lane.near = ray.near;
   lane.far = ray.far;
-  lane.throughput = Color(1.0f);
+  lane.throughput = Color(ray.black ? 0.0f : 1.0f);
+  if (ray.black) lane.near = lane.far = 0.0f;
   lane.hit_depth = std::numeric_limits<float>::infinity();
   ++statistics_.samples;
 }
@@ -203,6 +205,7 @@ void PathStream::next_continuation(Lane& lane) {
   }
   const Fork& fork = *fork_of(lane);
   lane.depth = 0;
+  lane.ray_kind = eye_ray;
   lane.term = Term::emitted;
   lane.caustic = CausticState();
   lane.caustic.photons = cache_.photons != nullptr;
@@ -241,6 +244,7 @@ void PathStream::trace(const Packet& packet) {
   for (int i = 0; i < packet.size; ++i) {
     const Lane& lane = lanes_[packet.lanes[i]];
     set_ray(rays_, i, lane.origin, lane.direction, lane.near, lane.far);
+    rays_.ray.mask[i] = mask_of(lane.ray_kind);
     ++(lane.camera_ray ? statistics_.rays_camera : statistics_.rays_scatter);
   }
   TraceQuery query = query_of(packet);
@@ -263,6 +267,8 @@ void PathStream::trace_shadows(const Packet& packet) {
     const Lane& lane = lanes_[packet.lanes[i]];
     set_ray(shadow_rays_, i, lane.shadow_origin, lane.shadow_target - lane.shadow_origin, 0.0f,
             1.0f);
+    shadow_rays_.mask[i] = lane.shadow_mask;
+    if (lane.shadow_mask == 0) valid[i] = 0;
     transmittance_[i] = Color(1.0f);
     passed_thin_[i] = 0;
     ++statistics_.rays_shadow;

@@ -212,6 +212,11 @@ void PathStream::scatter(Lane& lane, const SurfacePoint& point, const SurfacePar
       lane.throughput *= 1.0f / survival;
     }
   }
+  if (s.kind == LobeKind::diffuse) {
+    lane.ray_kind = other_ray;
+  } else if (!s.transmitted) {
+    lane.ray_kind = mirror_ray;
+  }
   lane.origin = offset_origin(point, s.wi);
   lane.direction = s.wi;
   lane.near = 0.0f;

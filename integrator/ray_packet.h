@@ -10,11 +10,19 @@ namespace lumivec {
 // natively.
 constexpr int packet_size = 8;
 
+// What a ray is for, in the lowest bits of its mask: instances may be hidden from some of them.
+using RayMask = unsigned;
+constexpr RayMask eye_ray = 1, shadow_ray = 2, mirror_ray = 4, other_ray = 8;
+constexpr RayMask all_rays = ~0u, ray_kinds = 15;
+constexpr RayMask mask_of(RayMask kind) {
+  return (all_rays & ~ray_kinds) | kind;
+}
+
 // What Embree does not change.
 inline void set_constants(RTCRay8& rays) {
   for (int i = 0; i < packet_size; ++i) {
     rays.time[i] = 0.0f;
-    rays.mask[i] = ~0u;
+    rays.mask[i] = all_rays;
     rays.id[i] = static_cast<unsigned>(i);
     rays.flags[i] = 0;
   }

@@ -104,6 +104,14 @@ void note_error(void* user, RTCError, const char* message) {
   if (text.empty()) text = message ? message : "unknown error";
 }
 
+RayMask seen_by(const Instance& instance) {
+  RayMask mask = all_rays;
+  if (!instance.seen_by_eye) mask &= ~eye_ray;
+  if (!instance.seen_in_reflections) mask &= ~mirror_ray;
+  if (!instance.casts_shadows) mask &= ~shadow_ray;
+  return mask;
+}
+
 }  // namespace
 
 TracedScene::TracedScene(const Scene& scene, int threads, const Frame* frame) : scene_(scene) {
@@ -196,8 +204,9 @@ M44d TracedScene::object_to_traced(int instance) const {
   return m;
 }
 
-bool TracedScene::filtered(const Material& material) const {
-  return material.alpha_mode != AlphaMode::opaque ||
+bool TracedScene::filtered(const TracedInstance& instance) const {
+  const Material& material = *instance.material;
+  return instance.seen_by != all_rays || material.alpha_mode != AlphaMode::opaque ||
          (material.transmission > 0.0f && material.thin_walled && !material.unlit);
 }
 
@@ -224,6 +233,7 @@ void TracedScene::add_mesh(int instance) {
   traced.mesh = &mesh;
   traced.material =
       placed.material >= 0 ? &scene_.materials[std::size_t(placed.material)] : &default_material();
+  traced.seen_by = seen_by(placed);
   traced.mirrored = determinant3(placed.object_to_world) < 0.0;
   traced.flat_shaded = has_flat_normals(mesh);
   if (mesh.triangles.empty()) return;
@@ -261,7 +271,7 @@ void TracedScene::add_mesh(int instance) {
                              mesh.triangles.data(), 0, 3 * sizeof(std::uint32_t),
                              mesh.triangles.size());
   traced.vertices = vertices;
-  if (filtered(*traced.material)) use_filters(geometry);
+  if (filtered(traced)) use_filters(geometry);
   attach(geometry, {Slot::Kind::mesh, instance});
 }
 
@@ -285,8 +295,11 @@ RTCScene TracedScene::base_scene(int mesh_index) {
   // The instances of a mesh may differ in material: the filters look at the instance that was hit.
   const bool any_filtered =
       std::any_of(scene_.instances.begin(), scene_.instances.end(), [&](const Instance& i) {
-        return i.mesh == mesh_index && i.material >= 0 &&
-               filtered(scene_.materials[std::size_t(i.material)]);
+        TracedInstance like;
+        like.material =
+            i.material >= 0 ? &scene_.materials[std::size_t(i.material)] : &default_material();
+        like.seen_by = seen_by(i);
+        return i.mesh == mesh_index && filtered(like);
       });
   if (any_filtered) use_filters(geometry);
   rtcCommitGeometry(geometry);
@@ -312,6 +325,7 @@ void TracedScene::add_sphere(int instance) {
   TracedInstance& traced = instances_[std::size_t(instance)];
   traced.material =
       placed.material >= 0 ? &scene_.materials[std::size_t(placed.material)] : &default_material();
+  traced.seen_by = seen_by(placed);
   traced.mirrored = determinant3(placed.object_to_world) < 0.0;
   traced.flat_shaded = false;
   const M44d m = object_to_traced(instance);
@@ -368,8 +382,7 @@ void TracedScene::finish_spheres() {
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
     const TracedSphere& s = spheres_[i];
     vertices[i] = V4f(s.center.x, s.center.y, s.center.z, s.radius);
-    any_filtered =
-        any_filtered || filtered(*instances_[std::size_t(sphere_instances_[i])].material);
+    any_filtered = any_filtered || filtered(instances_[std::size_t(sphere_instances_[i])]);
   }
   if (any_filtered) use_filters(geometry);
   attach(geometry, {Slot::Kind::spheres, -1});
@@ -380,6 +393,7 @@ void TracedScene::add_solid(int instance) {
   TracedInstance& traced = instances_[std::size_t(instance)];
   traced.material =
       placed.material >= 0 ? &scene_.materials[std::size_t(placed.material)] : &default_material();
+  traced.seen_by = seen_by(placed);
   traced.mirrored = determinant3(placed.object_to_world) < 0.0;
   traced.flat_shaded = false;
   traced.solid = static_cast<int>(solids_.size());
@@ -393,7 +407,7 @@ void TracedScene::finish_solids() {
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
   set_solids(geometry, *this);
   for (const int instance : solid_instances_)
-    has_filters_ = has_filters_ || filtered(*instances_[std::size_t(instance)].material);
+    has_filters_ = has_filters_ || filtered(instances_[std::size_t(instance)]);
   attach(geometry, {Slot::Kind::solids, -1});
 }
 
@@ -412,7 +426,7 @@ TraceQuery TracedScene::query() const {
 }
 
 RayHit TracedScene::intersect(const V3f& origin, const V3f& direction, float near, float far,
-                              std::uint32_t seed) const {
+                              std::uint32_t seed, RayMask mask) const {
   RTCRayHit ray;
   ray.ray.org_x = origin.x;
   ray.ray.org_y = origin.y;
@@ -423,7 +437,7 @@ RayHit TracedScene::intersect(const V3f& origin, const V3f& direction, float nea
   ray.ray.tnear = near;
   ray.ray.tfar = far;
   ray.ray.time = 0.0f;
-  ray.ray.mask = ~0u;
+  ray.ray.mask = mask;
   ray.ray.id = 0;
   ray.ray.flags = 0;
   ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "integrator/embree_api.h"
+#include "integrator/ray_packet.h"
 #include "integrator/solid_boundaries.h"
 #include "integrator/surface.h"
 #include "loader/scene.h"
@@ -55,6 +56,7 @@ struct TracedInstance {
   int transform = -1;       // index of its Transforms; -1 for similarity spheres
   int sphere = -1;          // index into spheres(), similarity spheres only
   int solid = -1;           // index into solids()
+  RayMask seen_by = all_rays;
 };
 
 struct TracedSphere {
@@ -87,7 +89,8 @@ class TracedScene {
   // Around each instance, traced space; empty for those that are not visible.
   const std::vector<Imath::Box3f>& bounds() const { return bounds_; }
   RTCScene handle() const { return top_.get(); }
-  // Whether anything has partial opacity or thin walls, so that queries need seeds.
+  // Whether anything has partial opacity or thin walls, or is hidden from some rays, so that
+  // queries need seeds.
   bool has_filters() const { return has_filters_; }
 
   const std::vector<TracedInstance>& instances() const { return instances_; }
@@ -95,14 +98,14 @@ class TracedScene {
   // Hits on them have the index here as their primitive, and the leaf as u.
   const std::vector<TracedSolid>& solids() const { return solids_; }
   bool solid_has_filter(unsigned solid) const {
-    return filtered(*instances_[std::size_t(solid_instances_[solid])].material);
+    return filtered(instances_[std::size_t(solid_instances_[solid])]);
   }
   // Index into Scene::instances of what was hit.
   int instance_of(const RayHit& hit) const;
 
   // The nearest hit of one ray origin + t · direction, near ≤ t ≤ far. seed: as in TraceQuery.
   RayHit intersect(const V3f& origin, const V3f& direction, float near, float far,
-                   std::uint32_t seed) const;
+                   std::uint32_t seed, RayMask mask = all_rays) const;
 
   // The surface at a hit of the ray origin + t · direction.
   SurfacePoint surface(const RayHit& hit, const V3f& origin, const V3f& direction) const;
@@ -168,7 +171,7 @@ class TracedScene {
   RTCGeometry mesh_geometry(const TracedInstance& instance, const V3f* vertices);
   void attach(RTCGeometry geometry, Slot slot);
   void use_filters(RTCGeometry geometry);
-  bool filtered(const Material& material) const;
+  bool filtered(const TracedInstance& instance) const;
   SurfacePoint solid_surface(const TracedSolid& solid, const RayHit& hit, const V3f& origin,
                              const V3f& direction) const;
   SurfacePoint sphere_surface(const TracedSphere& sphere, const V3f& origin, const V3f& direction,

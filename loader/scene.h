@@ -230,9 +230,12 @@ struct Instance {
   int solid = -1;        // index into Scene::solids; must not emit light
   int solid_part = 0;    // which leaves' surface is shown: instances share a solid of several
                          // materials
+  bool seen_by_eye = true;          // directly and through what is transparent
+  bool seen_in_reflections = true;  // sharp and glossy ones
+  bool casts_shadows = true;        // of lights without extent
 };
 
-enum class LightKind : std::uint8_t { point, spot, directional };
+enum class LightKind : std::uint8_t { point, spot, directional, beam };
 
 // A light without extent. Emissive surfaces are lights too, but are found from Material::emission.
 struct Light {
@@ -247,19 +250,51 @@ struct Light {
                                                          // falls off with the square
   M44d object_to_world;  // position from the translation; shines along object -Z; scale is ignored
   int node = -1;
+
+  bool casts_shadows = true;  // false: its light passes through everything
+  float fade_distance =
+      0.0f;                 // scene units; > 0: the light does not fall off with the square, but
+                            // intensity, lx, times 2 / (1 + (distance / fade_distance)^fade_power)
+  float fade_power = 0.0f;  // ≥ 0
+  float tightness = 0.0f;   // ≥ 0; spot: a power of the cosine to the axis; beam: of what is left
+                            // of the way from the axis to outer_radius
+  bool smooth_edge = false;   // spot: t²(3 - 2t) and not t² between the cones, t by their cosines
+  float inner_radius = 0.0f;  // beam: of full intensity, scene units; smooth_edge beyond
+  float outer_radius = 0.0f;  // beam: where it ends, ≥ inner_radius; its rays are parallel
+  // Point, spot: half axes of the parallelogram or (round_shadows) ellipse that shadows are those
+  // of, world space; all else is as if the light were in its middle.
+  V3f shadow_u{0.0f}, shadow_v{0.0f};
+  bool round_shadows = false;
 };
 
-enum class CameraKind : std::uint8_t { perspective, orthographic };
+// With X and Y in the picture from -1/2 to 1/2, right and up, rays go along
+enum class CameraKind : std::uint8_t {
+  perspective,
+  orthographic,
+  fisheye,           // at an angle to the axis that grows with the distance from the middle
+  spherical,         // the longitude X · xangle and the latitude Y · yangle
+  ultra_wide,        // (sin a, sin b, -cos a · cos b), a = X · xangle, b = Y · yangle
+  panoramic,         // (2 xmag · sin πX, 2 ymag · tan πY, -cos πX)
+  upright_cylinder,  // (sin a, 2 ymag · Y, -cos a), a = X · xangle
+  lying_cylinder     // (2 xmag · X, sin b, -cos b), b = Y · yangle
+};
 
 // A pinhole or parallel view. Looks along object -Z, +Y up.
 struct Camera {
   std::string name;
   CameraKind kind = CameraKind::perspective;
-  float yfov = 0.785398163f;  // perspective: full vertical angle, radians, (0, π)
-  float aspect = 0.0f;        // width / height the file asks for; 0: whatever the picture has
-  float xmag = 1.0f;          // orthographic: half width, scene units
-  float ymag = 1.0f;          // orthographic: half height, scene units
-  float znear = 0.0f;  // scene units along the view axis; nearer surfaces are not seen by the eye
+  // Full vertical angle, radians, (0, π). Wide kinds: of the perspective that stands for them where
+  // only flat pictures will do.
+  float yfov = 0.785398163f;
+  // Wide kinds: full angles across the picture, radians. Fisheye: yangle is its height's, the width
+  // follows from the picture's shape, and nothing is seen beyond xangle / 2 from the axis. Ultra
+  // wide: xangle too follows from the picture's shape.
+  float xangle = 6.28318531f;
+  float yangle = 3.14159265f;
+  float aspect = 0.0f;  // width / height the file asks for; 0: whatever the picture has
+  float xmag = 1.0f;    // orthographic: half width, scene units
+  float ymag = 1.0f;    // orthographic: half height, scene units
+  float znear = 0.0f;   // scene units along the view axis; nearer surfaces are not seen by the eye
   float zfar = std::numeric_limits<float>::infinity();
   M44d camera_to_world;  // rigid up to scale; scale is ignored
   int node = -1;

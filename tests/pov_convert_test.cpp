@@ -195,10 +195,101 @@ TEST(PovConvert, WhatIsLeftOutIsSaid) {
       "sphere { 0, 1 pigment { rgb 1 } finish { phong 1 metallic brilliance 2 } "
       "interior_texture { pigment { rgb 0 } } }\n"
       "blob { threshold 0.5 sphere { 0, 1, 1 pigment { rgb 1 } } }\n"
-      "light_source { 5 rgb 1 spotlight tightness 10 }");
+      "light_source { 5 rgb 1 projected_through { sphere { 1, 1 } } }");
   file.load();
-  for (const char* words : {"metallic", "brilliance", "interior_texture", "blob", "tightness"})
+  for (const char* words :
+       {"metallic", "brilliance", "interior_texture", "blob", "projected_through"})
     EXPECT_TRUE(file.warns(words)) << words;
+}
+
+TEST(PovConvert, LightsAreAsTheLanguageHasThem) {
+  PovFile file(
+      "#version 3.7; global_settings { assumed_gamma 1 }\n"
+      "light_source { <1, 2, 3> rgb 0.5 }\n"
+      "light_source { 0 rgb 1 fade_distance 4 fade_power 3 shadowless }\n"
+      "light_source { y rgb 1 spotlight point_at 0 radius 10 falloff 20 tightness 7 }\n"
+      "light_source { y rgb 1 cylinder point_at 0 radius 2 falloff 3 }\n"
+      "light_source { y rgb 1 parallel point_at 0 }\n"
+      "light_source { y rgb 1 area_light 4 * x, 2 * z, 5, 5 circular adaptive 1 jitter }\n");
+  const Scene scene = file.load();
+  EXPECT_FALSE(file.warns("light"));
+  ASSERT_EQ(scene.lights.size(), 6u);
+  constexpr float pi = std::numbers::pi_v<float>, degree = pi / 180.0f;
+  const auto& lights = scene.lights;
+  using lumivec::LightKind;
+  EXPECT_EQ(lights[0].kind, LightKind::point);
+  EXPECT_FLOAT_EQ(lights[0].intensity.x, 0.5f * pi);
+  EXPECT_GT(lights[0].fade_distance, 0.0f);
+  EXPECT_EQ(lights[0].fade_power, 0.0f);
+  EXPECT_EQ(lights[0].object_to_world[3][0], 1.0);
+  EXPECT_EQ(lights[0].object_to_world[3][2], -3.0);
+  EXPECT_TRUE(lights[0].casts_shadows);
+  EXPECT_FALSE(lights[1].casts_shadows);
+  EXPECT_EQ(lights[1].fade_distance, 4.0f);
+  EXPECT_EQ(lights[1].fade_power, 3.0f);
+  EXPECT_EQ(lights[2].kind, LightKind::spot);
+  EXPECT_FLOAT_EQ(lights[2].inner_cone, 10.0f * degree);
+  EXPECT_FLOAT_EQ(lights[2].outer_cone, 20.0f * degree);
+  EXPECT_EQ(lights[2].tightness, 7.0f);
+  EXPECT_TRUE(lights[2].smooth_edge);
+  EXPECT_NEAR(lights[2].object_to_world[2][1], 1.0, 1e-12);  // shines along -Z: down
+  EXPECT_EQ(lights[3].kind, LightKind::beam);
+  EXPECT_EQ(lights[3].inner_radius, 2.0f);
+  EXPECT_EQ(lights[3].outer_radius, 3.0f);
+  EXPECT_EQ(lights[4].kind, LightKind::directional);
+  EXPECT_FLOAT_EQ(lights[4].intensity.x, pi);
+  EXPECT_EQ(lights[5].kind, LightKind::point);
+  EXPECT_EQ(lights[5].shadow_u, V3f(2, 0, 0));
+  EXPECT_EQ(lights[5].shadow_v, V3f(0, 0, -1));
+  EXPECT_TRUE(lights[5].round_shadows);
+}
+
+TEST(PovConvert, ObjectsAreHiddenWhereTheyAskForIt) {
+  PovFile file(
+      "sphere { 0, 1 no_image }\n"
+      "union { box { -1, 1 no_reflection } difference { sphere { 0, 2 } box { 0, 3 } } no_shadow "
+      "}\n"
+      "light_source { 5 rgb 1 looks_like { sphere { 0, 1 } } }");
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.instances.size(), 4u);
+  const bool expected[4][3] = {
+      {false, true, true}, {true, false, false}, {true, true, false}, {true, true, false}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(scene.instances[i].seen_by_eye, expected[i][0]) << i;
+    EXPECT_EQ(scene.instances[i].seen_in_reflections, expected[i][1]) << i;
+    EXPECT_EQ(scene.instances[i].casts_shadows, expected[i][2]) << i;
+  }
+}
+
+TEST(PovConvert, CamerasThatAreNotFlat) {
+  const struct {
+    const char* text;
+    lumivec::CameraKind kind;
+    double xangle, yangle;  // degrees
+  } cases[] = {
+      {"fisheye right x up y angle 200", lumivec::CameraKind::fisheye, 200, 200},
+      {"fisheye right x up 0.5 * y", lumivec::CameraKind::fisheye, 90, 45},
+      {"spherical right 2 * x up y", lumivec::CameraKind::spherical, 360, 180},
+      {"spherical angle 100", lumivec::CameraKind::spherical, 100, 50},
+      {"spherical angle 100, 20", lumivec::CameraKind::spherical, 100, 20},
+      {"ultra_wide_angle right 1.5 * x up y angle 120", lumivec::CameraKind::ultra_wide, 120, 80},
+      {"cylinder 1 angle 70", lumivec::CameraKind::upright_cylinder, 70, 70},
+      {"cylinder 2", lumivec::CameraKind::lying_cylinder, 90, 90},
+  };
+  for (const auto& c : cases) {
+    PovFile file(std::string("camera { ") + c.text + " location -5 * z } sphere { 0, 1 }");
+    const Scene scene = file.load();
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].kind, c.kind) << c.text;
+    EXPECT_NEAR(double(scene.cameras[0].xangle) * 180.0 / std::numbers::pi, c.xangle, 1e-4)
+        << c.text;
+    EXPECT_NEAR(double(scene.cameras[0].yangle) * 180.0 / std::numbers::pi, c.yangle, 1e-4)
+        << c.text;
+    EXPECT_FALSE(file.warns("perspective")) << c.text;
+  }
+  PovFile omnimax("camera { omnimax location -5 * z } sphere { 0, 1 }");
+  omnimax.load();
+  EXPECT_TRUE(omnimax.warns("omnimax camera is taken for a perspective one"));
 }
 
 // ---- height fields -----------------------------------------------------------------------------

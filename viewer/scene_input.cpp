@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "integrator/wide_lens.h"
 #include "loader/animate.h"
 #include "viewer/camera_text.h"
 #include "viewer/errors.h"
@@ -83,6 +84,16 @@ Camera choose_camera(const Scene& scene, const std::string& wanted) {
   std::vector<std::string> names;
   for (const Camera& camera : scene.cameras) names.push_back(camera.name);
   return scene.cameras[std::size_t(find_by_name_or_index("--camera", wanted, names, "camera"))];
+}
+
+void flatten_cameras(Scene& scene, const std::filesystem::path& file,
+                     const std::function<void(const std::string&)>& warn) {
+  for (Camera& camera : scene.cameras) {
+    if (!is_wide(camera)) continue;
+    warn(file.string() + ": the " + camera_kind_name(camera.kind) +
+         " camera is shown as a perspective one; lumivec render shows all of its picture");
+    camera = flat_camera(camera);
+  }
 }
 
 // The picture's size where the user leaves it open.

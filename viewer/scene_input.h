@@ -44,6 +44,11 @@ Scene load_lit_scene(const std::filesystem::path& file, const LoadOptions& optio
 // camera's; empty: the first. Throws UsageError.
 Camera choose_camera(const Scene& scene, const std::string& wanted);
 
+// For pictures that are pasted from one view to the next, which only flat ones can be: a
+// perspective camera takes the place of each fisheye and other wide one, and warn is called.
+void flatten_cameras(Scene& scene, const std::filesystem::path& file,
+                     const std::function<void(const std::string&)>& warn);
+
 // The picture's size where the user leaves it open.
 PictureSize size_for(const Camera& camera);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "integrator/wide_lens.h"
 #include "loader/animate.h"
 #include "viewer/json_text.h"
 #include "viewer/scene_summary.h"
@@ -25,6 +26,8 @@ std::string kind_name(LightKind kind) {
       return "point";
     case LightKind::spot:
       return "spot";
+    case LightKind::beam:
+      return "beam";
     case LightKind::directional:
       break;
   }
@@ -35,6 +38,11 @@ std::string camera_view(const Camera& camera) {
   if (camera.kind == CameraKind::orthographic) {
     return "orthographic, " + format_number(2.0 * camera.xmag) + " x " +
            format_number(2.0 * camera.ymag) + " units";
+  }
+  if (is_wide(camera)) {
+    std::string text = std::string(camera_kind_name(camera.kind));
+    if (camera.aspect > 0.0f) text += ", aspect " + format_number(camera.aspect);
+    return text;
   }
   std::string text = "perspective, " + format_number(degrees(camera.yfov)) + " degrees high";
   if (camera.aspect > 0.0f) text += ", aspect " + format_number(camera.aspect);
@@ -106,7 +114,7 @@ nlohmann::json camera_json(const Camera& camera) {
     json["xmag"] = camera.xmag;
     json["ymag"] = camera.ymag;
   } else {
-    json["kind"] = "perspective";
+    json["kind"] = camera_kind_name(camera.kind);
     json["yfov_degrees"] = degrees(camera.yfov);
   }
   return json;

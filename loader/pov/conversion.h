@@ -39,8 +39,7 @@ struct Conversion {
   double extent = 1.0;  // radius of the finite shapes around it
   std::map<std::tuple<const void*, const void*, bool>, int> materials;  // by what they come from
   std::map<PatternKey, int> patterned;
-  std::map<MaterialKey, int> distinct;               // by what they are
-  std::vector<std::shared_ptr<const Texture>> kept;  // so that their addresses stay their own
+  std::map<MaterialKey, int> distinct;  // by what they are
 };
 
 // Objects and lamps become instances and lights.
@@ -49,9 +48,8 @@ void convert_objects(Conversion& conversion);
 // axis: the light's transform to the scene's coordinates.
 void convert_light(Conversion& conversion, const LightSource& light, const M44d& transform,
                    const Place& place);
-// The object that a lamp looks like, which gives its light instead of it.
-void convert_lamp_object(Conversion& conversion, const Object& object, const M44d& transform,
-                         const Color& radiance);
+// The object that a lamp looks like, which is not in the way of its light.
+void convert_lamp_object(Conversion& conversion, const Object& object, const M44d& transform);
 
 // The picture of a height field as triangles, in the unit cube. Null: the picture cannot be
 // had, which is mentioned.

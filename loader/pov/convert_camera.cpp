@@ -14,22 +14,51 @@ bool is_finite(const Imath::Box3d& box) {
   return !box.isEmpty() && box.size().length() < largest;
 }
 
-const char* type_name(CameraType type) {
-  switch (type) {
+// What the scene's cameras have no kind for.
+bool is_known(const PovCamera& camera) {
+  const bool still = camera.cylinder_type == 1 || camera.cylinder_type == 2;
+  return camera.type != CameraType::omnimax && (camera.type != CameraType::cylinder || still);
+}
+
+// Cameras with pictures that are no plane's. Their lengths of right, up and direction are those of
+// the picture at which a perspective camera would look, in its distances.
+void set_wide_lens(const PovCamera& camera, Camera& out) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const double width = camera.right.length(), height = camera.up.length();
+  const auto angle = [&](double usual = 90.0) {
+    return degree * (camera.angle > 0.0 ? camera.angle : usual);
+  };
+  switch (camera.type) {
     case CameraType::fisheye:
-      return "fisheye";
-    case CameraType::ultra_wide_angle:
-      return "ultra wide angle";
-    case CameraType::omnimax:
-      return "omnimax";
-    case CameraType::panoramic:
-      return "panoramic";
+      out.kind = CameraKind::fisheye;
+      out.xangle = static_cast<float>(angle());
+      out.yangle = static_cast<float>(angle() * height);
+      return;
     case CameraType::spherical:
-      return "spherical";
-    case CameraType::cylinder:
-      return "cylinder";
+      out.kind = CameraKind::spherical;
+      out.xangle = static_cast<float>(angle(360.0));
+      out.yangle = camera.vertical_angle > 0.0 ? static_cast<float>(degree * camera.vertical_angle)
+                                               : 0.5f * out.xangle;
+      return;
+    case CameraType::ultra_wide_angle:
+      out.kind = CameraKind::ultra_wide;
+      out.xangle = static_cast<float>(angle());
+      out.yangle = static_cast<float>(angle() * height / width);
+      return;
+    case CameraType::panoramic: {
+      const double distance = camera.direction.length();
+      out.kind = CameraKind::panoramic;
+      out.xmag = static_cast<float>(0.5 * width / distance);
+      out.ymag = static_cast<float>(0.5 * height / distance);
+      return;
+    }
     default:
-      return "perspective";
+      out.kind =
+          camera.cylinder_type == 1 ? CameraKind::upright_cylinder : CameraKind::lying_cylinder;
+      out.xangle = out.yangle = static_cast<float>(angle());
+      out.xmag = static_cast<float>(0.5 * width);
+      out.ymag = static_cast<float>(0.5 * height);
+      return;
   }
 }
 
@@ -99,13 +128,19 @@ void convert_camera(Conversion& conversion) {
     out.xmag = static_cast<float>(width / 2.0);
     out.ymag = static_cast<float>(height / 2.0);
   } else {
-    if (camera.type != CameraType::perspective) {
-      parser.mention(camera.place, std::string("the ") + type_name(camera.type) +
-                                       " camera is taken for a perspective one");
+    if (!is_known(camera)) {
+      parser.mention(
+          camera.place,
+          std::string(camera.type == CameraType::omnimax ? "the omnimax" : "the moving cylinder") +
+              " camera is taken for a perspective one");
+    } else if (camera.type != CameraType::perspective) {
+      set_wide_lens(camera, out);
     }
     out.yfov = static_cast<float>(2.0 * std::atan(0.5 * perspective_height(camera)));
   }
-  if (!fits_float(eye) || !(out.aspect > 0.0f && fits_float(out.aspect)) || !fits_float(out.yfov))
+  const bool sized = fits_float(out.yfov) && fits_float(out.xangle) && fits_float(out.yangle) &&
+                     fits_float(out.xmag) && fits_float(out.ymag);
+  if (!fits_float(eye) || !(out.aspect > 0.0f && fits_float(out.aspect)) || !sized)
     parser.fail_at(camera.place, "the camera's size is not finite or too large");
   if (camera.aperture > 0.0) parser.mention(camera.place, "focal blur is left out");
   conversion.out.cameras.push_back(out);

@@ -25,8 +25,15 @@ struct Around {
   Clips clips;                                             // what cuts the object's surface
   Imath::Box3d bounds{V3d(-beyond_all), V3d(beyond_all)};  // in the scene's coordinates
   bool lamp = false;
+  bool seen_by_eye = true, seen_in_reflections = true, casts_shadows = true;
   bool inside_out = false;  // what a difference takes away, and inverse objects
 };
+
+void set_visibility(const Around& around, Instance& instance) {
+  instance.seen_by_eye = around.seen_by_eye;
+  instance.seen_in_reflections = around.seen_in_reflections;
+  instance.casts_shadows = around.casts_shadows;
+}
 
 const char* shape_name(const Shape& shape) {
   if (std::holds_alternative<std::shared_ptr<const HeightFieldShape>>(shape)) return "height field";
@@ -167,6 +174,7 @@ void add_instance(Conversion& conversion, const Object& object, const Around& ar
   instance.material =
       material_of(conversion, object, around, Imath::transform(bounds, object_to_world));
   instance.object_to_world = object_to_world;
+  set_visibility(around, instance);
   conversion.out.instances.push_back(std::move(instance));
 }
 
@@ -304,6 +312,7 @@ bool add_solid(Conversion& conversion, const Object& object, const Around& aroun
     instance.solid_part = static_cast<int>(part);
     instance.material = materials[part];
     instance.object_to_world = conversion.to_world;
+    set_visibility(around, instance);
     conversion.out.instances.push_back(std::move(instance));
   }
   conversion.out.solids.push_back(std::move(solid));
@@ -465,6 +474,9 @@ Around with_own(const Conversion& conversion, const Object& object, const Around
   }
   if (object.interior) own.interior = object.interior;
   if (object.inverse) own.inside_out = !own.inside_out;
+  own.seen_by_eye = around.seen_by_eye && !object.no_image;
+  own.seen_in_reflections = around.seen_in_reflections && !object.no_reflection;
+  own.casts_shadows = around.casts_shadows && !object.no_shadow;
   if (object.extras) add_bounds(conversion.parser, *object.extras, around.transform, own);
   return own;
 }
@@ -485,12 +497,9 @@ void convert(Conversion& conversion, const Object& object, const Around& around)
     if (std::any_of((*blob)->components.begin(), (*blob)->components.end(), has_texture))
       conversion.parser.mention(object.place, "the textures of a blob's components are left out");
   }
-  if (object.no_image || object.no_reflection || object.no_shadow) {
-    conversion.parser.mention(
-        object.place,
-        "no_image, no_reflection and no_shadow are left out: the object is seen by all");
-  }
-  if (!object.transform && !object.texture && !object.interior && !object.extras && !object.inverse)
+  const bool hidden = object.no_image || object.no_reflection || object.no_shadow;
+  if (!object.transform && !object.texture && !object.interior && !object.extras &&
+      !object.inverse && !hidden)
     return convert_shape(conversion, object, around);
   convert_shape(conversion, object, with_own(conversion, object, around));
 }
@@ -503,29 +512,13 @@ void convert_objects(Conversion& conversion) {
   for (const auto& object : conversion.scene.objects) convert(conversion, *object, nothing);
 }
 
-void convert_lamp_object(Conversion& conversion, const Object& object, const M44d& transform,
-                         const Color& radiance) {
-  auto lamp = std::make_shared<Texture>();
-  lamp->layers.emplace_back();
-  lamp->layers.back().pigment.color = {0.0, 0.0, 0.0, 0.0, 0.0};
-  conversion.kept.push_back(lamp);
-  Material material;
-  material.name = "lamp";
-  material.base_color = Color(0.0f);
-  material.specular = 0.0f;
-  material.double_sided = true;
-  material.emission = radiance;
-  conversion.materials.emplace(std::make_tuple(static_cast<const void*>(lamp.get()), nullptr, true),
-                               static_cast<int>(conversion.out.materials.size()));
-  conversion.out.materials.push_back(std::move(material));
-  Object shining = object;
-  shining.texture = lamp;
-  shining.interior = nullptr;
+void convert_lamp_object(Conversion& conversion, const Object& object, const M44d& transform) {
   Around around;
   around.transform = transform;
   around.to_world = transform * conversion.to_world;
   around.lamp = true;
-  convert(conversion, shining, around);
+  around.casts_shadows = false;
+  convert(conversion, object, around);
 }
 
 }  // namespace lumivec::pov

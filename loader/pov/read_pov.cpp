@@ -29,7 +29,7 @@ std::string format_name(double version) {
 
 Scene convert(Parser& parser) {
   Scene out;
-  Conversion conversion{parser, parser.scene, out, M44d(), 1e4, V3d(0.0), 1.0, {}, {}, {}, {}};
+  Conversion conversion{parser, parser.scene, out, M44d(), 1e4, V3d(0.0), 1.0, {}, {}, {}};
   survey(conversion);
   convert_camera(conversion);
   convert_objects(conversion);

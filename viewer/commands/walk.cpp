@@ -260,13 +260,13 @@ int run_walk(const WalkOptions& options) {
   if (!options.output.empty() && !is_movie(options.output)) make_folder(options.output);
   const DisplayTransform display(options.display);
   LoadReport loading;
-  Scene scene = load_lit_scene(
-      options.scene_file, options.load, options.environment,
-      [&](const std::string& warning) {
-        warnings.push_back(warning);
-        if (!options.quiet) std::cerr << "lumivec: warning: " << warning << '\n';
-      },
-      loading);
+  const auto warn = [&](const std::string& warning) {
+    warnings.push_back(warning);
+    if (!options.quiet) std::cerr << "lumivec: warning: " << warning << '\n';
+  };
+  Scene scene =
+      load_lit_scene(options.scene_file, options.load, options.environment, warn, loading);
+  flatten_cameras(scene, options.scene_file, warn);
   const Camera camera = choose_camera(scene, options.camera);
   RenderSettings settings = options.settings;
   const PictureSize size = options.size ? *options.size : size_for(camera);

@@ -21,7 +21,7 @@ class Editor {
     if constexpr (requires { edit.index; }) edit.index = index;
     edit.before = before;
     edit.after = after;
-    wish_ = EditWish{edit, gesture_};
+    wish_.emplace(edit, gesture_);
   }
 
  private:

@@ -11,9 +11,9 @@ std::shared_ptr<const LoadedScene> load_shared_scene(const SceneSource& source) 
   auto loaded = std::make_shared<LoadedScene>();
   loaded->source = source;
   LoadReport report;
-  loaded->scene = load_lit_scene(
-      source.file, source.load, source.environment,
-      [&](const std::string& warning) { loaded->warnings.push_back(warning); }, report);
+  const auto warn = [&](const std::string& warning) { loaded->warnings.push_back(warning); };
+  loaded->scene = load_lit_scene(source.file, source.load, source.environment, warn, report);
+  flatten_cameras(loaded->scene, source.file, warn);
   loaded->files = std::move(report.files);
   pose(loaded->scene, source.pose);
   loaded->bounds = world_bounds(loaded->scene);
