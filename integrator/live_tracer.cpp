@@ -37,7 +37,7 @@ constexpr int phase_step = 101;
 // At rest the error becomes smaller by this factor once so many places in turn lacked nothing, down
 // to this share of what was asked for.
 constexpr double resting_error_step = 0.7;
-constexpr int places_to_sharpen = record_stride * record_stride;
+constexpr int places_to_sharpen = record_stride * record_stride / 4;
 constexpr double least_error_share = 0.35;
 // Looking for such places takes this share of the time for records, if there is anything to refine.
 constexpr double share_of_looking = 0.3;
@@ -91,6 +91,7 @@ struct LiveTracer::State {
     if (error == wanted) return;
     error = wanted;
     complete = 0;
+    completed = false;
     builder->set_error(error);
   }
 
@@ -189,6 +190,7 @@ struct LiveTracer::State {
   std::size_t level = 0;      // of slacks, that records are made for
   double error = 0.0;         // that records are made for
   int complete = 0;           // places in turn that lacked nothing
+  bool completed = false;     // for the present error
   std::uint32_t settled = 0;  // records when last all were there and as good as they should be
   unsigned generation = 0;
   RenderStatistics statistics;
@@ -362,12 +364,15 @@ void LiveTracer::trace(const std::vector<LiveRequest>& requests, bool centered,
       std::vector<SampleRange> ranges(count);
       for (std::size_t i = 0; i < count; ++i) {
         const LiveRequest& r = wanted[first + i];
-        ranges[i] = {r.pixel, r.sample, 1, static_cast<std::uint32_t>(i), centered};
+        ranges[i] = {r.pixel, r.sample, r.count, static_cast<std::uint32_t>(i), centered};
       }
       RenderStatistics counts;
       s.tracer->render_ranges(picture, ranges, sums, counts, use);
-      for (std::size_t i = 0; i < count; ++i)
-        samples[first + i] = {sums[i].terms, ranges[i].pixel, sums[i].mirrored};
+      for (std::size_t i = 0; i < count; ++i) {
+        LiveSample& sample = samples[first + i];
+        sample = {sums[i].terms, ranges[i].pixel, ranges[i].count, sums[i].mirrored};
+        for (Color& term : sample.terms) term *= 1.0f / static_cast<float>(sample.count);
+      }
       const std::lock_guard lock(s.mutex);
       s.statistics.add_counts(counts);
     });
@@ -412,14 +417,16 @@ bool LiveTracer::improve(double seconds, double refining_seconds, bool resting) 
     const double end = std::min(seconds, passed() + refining_seconds);
     s.arena.execute([&] { all = s.builder->refine([&] { return passed() < end; }, s.statistics); });
   }
-  if (all && s.cache.size() > s.settled + s.settled / 16) {
+  const bool finer = s.error < s.settings.cache_error;
+  if (all && !finer && s.cache.size() > s.settled + s.settled / 16) {
     s.settled = s.cache.size();
     ++s.generation;
   }
-  if (all && resting && s.complete >= places_to_sharpen &&
-      s.error > least_error_share * s.settings.cache_error) {
-    s.set_error(resting_error_step * s.error);
-    ++s.generation;
+  if (all && resting && s.complete >= places_to_sharpen) {
+    if (finer && !s.completed) ++s.generation;
+    s.completed = true;
+    if (s.error > least_error_share * s.settings.cache_error)
+      s.set_error(resting_error_step * s.error);
   }
   s.statistics.records = s.cache.size();
   s.statistics.cache_bytes = s.cache.bytes() + s.photons.bytes();

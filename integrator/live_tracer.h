@@ -18,21 +18,23 @@
 
 namespace lumivec {
 
-// One sample of a pixel.
-struct LiveSample {
-  std::array<Color, term_count> terms;  // radiance, cd·m⁻²
-  std::uint32_t pixel = 0;
-  // Of what the first hit's specular lobe shows: 1 / its distance from there, scene units⁻¹; or
-  // shows_nothing, shows_by_refraction (integrator/visible_surfaces.h).
-  float mirrored = shows_nothing;
-};
-
-// What to trace: samples of a pixel are numbered from 0 on, and no number gives the same twice.
 enum class PhotonDemand : std::uint8_t;  // integrator/live_photons.h
 
+// What to trace: samples of a pixel are numbered from 0 on, and no number gives the same twice.
 struct LiveRequest {
   std::uint32_t pixel = 0;  // row by row
   std::uint32_t sample = 0;
+  std::uint32_t count = 1;  // of samples, from that on
+};
+
+// The mean of a pixel's samples.
+struct LiveSample {
+  std::array<Color, term_count> terms;  // radiance, cd·m⁻²
+  std::uint32_t pixel = 0;
+  std::uint32_t count = 1;
+  // Of what the first hit's specular lobe shows: 1 / its distance from there, scene units⁻¹; or
+  // shows_nothing, shows_by_refraction (integrator/visible_surfaces.h). Of the last sample.
+  float mirrored = shows_nothing;
 };
 
 // What has been changed in a scene that is being traced; nothing else has. Neither the number of
@@ -87,7 +89,7 @@ class LiveTracer {
   // (world space less origin()).
   const CameraView& view(int views_ago = 0) const;
 
-  // One sample each, in any order; a pixel at most once. centered: through the pixels' middles,
+  // In any order, and answered in any; a pixel at most once. centered: through the pixels' middles,
   // where see() looks, and not spread by the filter.
   void trace(const std::vector<LiveRequest>& requests, bool centered,
              std::vector<LiveSample>& samples);

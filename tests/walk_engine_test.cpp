@@ -281,7 +281,7 @@ TEST(shading_cache, traces_about_as_many_pixels_as_asked) {
   cache.see(tracer, visibility);
   std::vector<LiveRequest> requests;
   for (const std::size_t count : {50u, 400u, 4096u}) {
-    cache.rest();
+    cache.rest(visibility.now());
     cache.choose(count, requests);
     EXPECT_NEAR(double(requests.size()), double(count), 0.02 * double(count) + 16.0);
     std::set<std::uint32_t> pixels;
@@ -321,6 +321,51 @@ TEST(shading_cache, doubts_cached_light_alone) {
   }
 }
 
+// Each pixel's samples go through a sequence of its own without a gap, which covers its domain
+// evenly. At rest a pixel that an edge goes through, whose samples differ, has several at once.
+TEST(shading_cache, numbers_the_samples_of_each_pixel) {
+  const Scene scene = cornell_scene();
+  LiveTracer tracer(scene, walk_settings(32));
+  tracer.set_view(cornell_camera(), 32, 32);
+  Visibility visibility(32, 32);
+  visibility.see_all(tracer);
+  ShadingCache cache(32, 32);
+  cache.see(tracer, visibility);
+  const std::vector<std::int32_t>& object = visibility.now().object;
+  const auto unsure = [&](std::uint32_t pixel) {
+    return pixel % 32 > 0 && object[pixel] != object[pixel - 1];
+  };
+  std::vector<std::uint32_t> next(1024, 0);
+  std::vector<LiveRequest> requests;
+  std::vector<LiveSample> samples;
+  std::uint32_t most = 0;
+  for (int i = 0; i < 20; ++i) {
+    cache.choose(512, requests);
+    samples.clear();
+    for (const LiveRequest& r : requests) {
+      EXPECT_EQ(r.sample, next[r.pixel]);
+      next[r.pixel] += r.count;
+      if (unsure(r.pixel)) most = std::max(most, r.count);
+      LiveSample sample;
+      sample.terms.fill(Color(0.0f));
+      sample.terms[0] = Color(unsure(r.pixel) && i % 2 == 0 ? 5.0f : 1.0f);
+      sample.pixel = r.pixel;
+      sample.count = r.count;
+      samples.push_back(sample);
+    }
+    cache.add(samples);
+    cache.rest(visibility.now());
+  }
+  EXPECT_GT(most, 1u);
+  std::array<double, 2> taken{}, pixels{};  // of sure ones, of others
+  for (std::uint32_t i = 0; i < 1024; ++i) {
+    EXPECT_GT(next[i], 2u);
+    taken[unsure(i) ? 1 : 0] += next[i];
+    pixels[unsure(i) ? 1 : 0] += 1.0;
+  }
+  EXPECT_GT(taken[1] / pixels[1], 2.0 * taken[0] / pixels[0]);
+}
+
 // What has been traced waits; what shows nothing yet comes first.
 TEST(shading_cache, untraced_pixels_come_first) {
   const Scene scene = cornell_scene();
@@ -338,7 +383,7 @@ TEST(shading_cache, untraced_pixels_come_first) {
   EXPECT_EQ(cache.hole_count(), 1024 - requests.size());
   std::set<std::uint32_t> traced;
   for (const LiveRequest& r : requests) traced.insert(r.pixel);
-  cache.rest();
+  cache.rest(visibility.now());
   cache.choose(256, requests);
   for (const LiveRequest& r : requests) EXPECT_EQ(traced.count(r.pixel), 0u);
 }

@@ -32,6 +32,11 @@ constexpr float most_vergence_change = 0.25f;
 constexpr float least_share = 0.05f;
 // The share of its four pixels in the last view that must have shown a surface which is guessed.
 constexpr float sure_share = 0.999f;
+// Of a view that comes to rest, what was carried over counts like so many samples at most: a sample
+// more then makes no pixel noisier than it was, and many leave little of it. Less where edges go
+// through pixels, whose middles it shows.
+constexpr float most_carried_samples = 6.0f;
+constexpr float most_carried_samples_at_edges = 1.0f;
 // The age that counts like one sample less.
 constexpr float age_unit = 4.0f;
 // Where the scene changes: a sample that differs by this share calls for more in its block, so many
@@ -47,6 +52,11 @@ constexpr float urgency_kept = 0.7f, urgency_spread = 0.5f, least_urgency = 0.02
 constexpr float most_noise = 16.0f;
 constexpr float most_noise_samples = 4.0f;
 constexpr float least_noisiness = 0.15f;
+// At rest, samples of pixels that edges go through are worth what their own noise says, which that
+// of their blocks hides; at most so many times more of them than there is noise.
+constexpr float most_noisiness_at_edges = 8.0f;
+// Of a pixel, in a frame of a view at rest.
+constexpr float most_samples_at_once = 8.0f;
 // Rows whose errors are diffused by themselves, so that several threads choose.
 constexpr int band_height = 64;
 
@@ -66,7 +76,7 @@ bool differs(const LiveSample& sample, const float* lanes) {
   return std::abs(now - before) > changed_share * std::max(now, before);
 }
 
-// How far a sample is off the mean of `count` before it: what it would be, squared, of the true
+// How far samples are off the mean of `count` before them: what one would be, squared, of the true
 // one.
 float noise_of(const LiveSample& sample, const float* lanes, float count) {
   float now = 0.0f, before = 0.0f;
@@ -79,7 +89,8 @@ float noise_of(const LiveSample& sample, const float* lanes, float count) {
   const float level = 0.5f * (now + before);
   if (!(level > 0.0f)) return 0.0f;
   const float off = (now - before) / level;
-  return std::min(off * off * count / (count + 1.0f), most_noise);
+  const auto n = static_cast<float>(sample.count);
+  return std::min(off * off * n * count / (count + n), most_noise);
 }
 
 }  // namespace
@@ -106,6 +117,7 @@ ShadingCache::ShadingCache(int width, int height)
       height_(height),
       shades_(std::size_t(width) * std::size_t(height)),
       last_shades_(shades_.shade.size()),
+      numbers_(shades_.shade.size(), 0),
       rows_(std::size_t(height)),
       blocks_across_((std::size_t(width) + block_side - 1) / block_side),
       urgency_(blocks_across_ * ((std::size_t(height) + block_side - 1) / block_side), 0.0f),
@@ -115,7 +127,8 @@ void ShadingCache::see(LiveTracer& tracer, Visibility& visibility) {
   ++frame_;
   spread_urgency();
   std::swap(shades_, last_shades_);
-  find_mixed(visibility.last());
+  last_rested_ = rested_;
+  rested_ = false;
   const Reprojection reprojection(tracer.view(0), visibility.now(), tracer.view(1),
                                   visibility.last(), width_, height_);
   constexpr auto lanes = static_cast<int>(Reprojection::lanes);
@@ -144,7 +157,8 @@ void ShadingCache::see_projected(const Visibility& visibility) {
   ++frame_;
   spread_urgency();
   std::swap(shades_, last_shades_);
-  find_mixed(visibility.last());
+  last_rested_ = rested_;
+  rested_ = false;
   for_each_row(height_, [&](int y) {
     for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) {
       const std::uint32_t source = visibility.source(i);
@@ -172,21 +186,30 @@ void ShadingCache::clear(const std::vector<std::uint32_t>& pixels) {
   for (const std::uint32_t i : pixels) shades_.clear(i);
 }
 
-void ShadingCache::rest() {
+void ShadingCache::rest(const VisibleSurfaces& seen) {
   ++frame_;
+  if (!rested_) {
+    find_edges(seen);
+    for_each_row(height_, [&](int y) {
+      for (std::size_t i = at(0, y); i < at(0, y + 1); ++i)
+        doubt(i, edges_[i] != 0 ? most_carried_samples_at_edges : most_carried_samples);
+    });
+  }
   rested_ = true;
   spread_urgency();
   share_noise();
   for_each_row(height_, [&](int y) { grow_older(y); });
 }
 
+void ShadingCache::doubt(std::size_t pixel, float most) {
+  for (float* samples : {&shades_.shade[pixel].lanes[Shade::samples_lane],
+                         &shades_.cached_samples[pixel], &shades_.specular_samples[pixel]})
+    *samples = std::min(*samples, most);
+}
+
 void ShadingCache::doubt(float most) {
-  doubt_cached(most);
   for_each_row(height_, [&](int y) {
-    for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) {
-      float& samples = shades_.shade[i].lanes[Shade::samples_lane];
-      samples = std::min(samples, most);
-    }
+    for (std::size_t i = at(0, y); i < at(0, y + 1); ++i) doubt(i, most);
   });
 }
 
@@ -265,23 +288,21 @@ void ShadingCache::carry_over(const LiveTracer& tracer, const Reprojection& repr
   }
 }
 
-void ShadingCache::find_mixed(const VisibleSurfaces& seen) {
-  mixed_.clear();
-  if (!rested_) return;
-  rested_ = false;
-  mixed_.assign(seen.size(), 0);
-  const auto differ = [&](std::size_t a, std::size_t b) {
-    return seen.object[a] != seen.object[b] ||
-           (seen.object[a] >= 0 && !normals_alike(seen.normal[a], seen.normal[b]));
+// Whether a pixel lies beside another surface, or where one turns.
+bool ShadingCache::is_edge(const VisibleSurfaces& seen, int x, int y) const {
+  const std::size_t i = at(x, y);
+  const auto differs_from = [&](std::size_t other) {
+    return seen.object[i] != seen.object[other] ||
+           (seen.object[i] >= 0 && !normals_alike(seen.normal[i], seen.normal[other]));
   };
+  return (x > 0 && differs_from(i - 1)) || (x + 1 < width_ && differs_from(i + 1)) ||
+         (y > 0 && differs_from(at(x, y - 1))) || (y + 1 < height_ && differs_from(at(x, y + 1)));
+}
+
+void ShadingCache::find_edges(const VisibleSurfaces& seen) {
+  edges_.resize(seen.size());
   for_each_row(height_, [&](int y) {
-    for (int x = 0; x < width_; ++x) {
-      const std::size_t i = at(x, y);
-      const bool edge = (x > 0 && differ(i, i - 1)) || (x + 1 < width_ && differ(i, i + 1)) ||
-                        (y > 0 && differ(i, at(x, y - 1))) ||
-                        (y + 1 < height_ && differ(i, at(x, y + 1)));
-      mixed_[i] = edge ? 1 : 0;
-    }
+    for (int x = 0; x < width_; ++x) edges_[at(x, y)] = is_edge(seen, x, y) ? 1 : 0;
   });
 }
 
@@ -347,7 +368,13 @@ float ShadingCache::want(std::size_t pixel) const {
   const std::size_t block = block_of(pixel);
   const float samples = shades_.mirrored[pixel] == shows_nothing ? shades_.shade[pixel].samples()
                                                                  : shades_.specular_samples[pixel];
-  return noisiness_[block] * (1.0f + most_urgent * urgency_[block]) *
+  float noisiness = noisiness_[block];
+  if (rested_ && edges_[pixel] != 0) {
+    // Samples in proportion to the noise: their number's growth to its square.
+    const float own = noise_scale_ * std::sqrt(shades_.noise[pixel]);
+    noisiness = std::max(noisiness, own * std::min(own, most_noisiness_at_edges));
+  }
+  return noisiness * (1.0f + most_urgent * urgency_[block]) *
          (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) / (1.0f + samples);
 }
 
@@ -390,8 +417,8 @@ void ShadingCache::share_noise() {
   });
   double mean = 0.0;
   for (const double sum : rows) mean += sum / static_cast<double>(noisiness_.size());
-  const float scale = mean > 0.0 ? static_cast<float>(1.0 / mean) : 0.0f;
-  for (float& n : noisiness_) n = mean > 0.0 ? least_noisiness + scale * n : 1.0f;
+  noise_scale_ = mean > 0.0 ? static_cast<float>(1.0 / mean) : 0.0f;
+  for (float& n : noisiness_) n = mean > 0.0 ? least_noisiness + noise_scale_ * n : 1.0f;
 }
 
 void ShadingCache::grow_older(int y) {
@@ -428,6 +455,8 @@ void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests)
   const double left = asked - holes;
   const auto scale = static_cast<float>(left > 0.0 && all.wanted > 0.0 ? left / all.wanted : 0.0);
 
+  const float most = rested_ ? most_samples_at_once : 1.0f;
+
   const auto bands = static_cast<std::size_t>((height_ + band_height - 1) / band_height);
   std::vector<std::vector<LiveRequest>> chosen(bands);
   // Floyd and Steinberg 1976, rows in turn from left to right and from right to left.
@@ -451,11 +480,17 @@ void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests)
         const int x = forward ? k : width_ - 1 - k;
         const std::size_t i = at(x, y), c = std::size_t(x) + 1;
         const bool hole = !(shades_.shade[i].samples() > 0.0f);
-        const float density = hole ? share_of_holes : std::min(1.0f, scale * want(i));
+        const float density = hole ? share_of_holes : std::min(most, scale * want(i));
         const float value = density + carried[c] + ahead;
-        const bool take = density >= 1.0f || (density > 0.0f && value >= 0.5f);
-        if (take) to.push_back({static_cast<std::uint32_t>(i), frame_});
-        const float error = value - (take ? 1.0f : 0.0f);
+        const float taken = density > 0.0f ? std::clamp(std::floor(value + 0.5f),
+                                                        std::min(1.0f, std::floor(density)), most)
+                                           : 0.0f;
+        if (taken > 0.0f) {
+          const auto samples = static_cast<std::uint32_t>(taken);
+          to.push_back({static_cast<std::uint32_t>(i), numbers_[i], samples});
+          numbers_[i] += samples;
+        }
+        const float error = value - taken;
         ahead = error * (7.0f / 16.0f);
         const std::size_t front = forward ? c + 1 : c - 1, back = forward ? c - 1 : c + 1;
         next[back] += error * (3.0f / 16.0f);
@@ -492,8 +527,9 @@ void ShadingCache::add(const std::vector<LiveSample>& samples) {
     }
     float& cached_count = shades_.cached_samples[sample.pixel];
     float& specular_count = shades_.specular_samples[sample.pixel];
-    const float share = 1.0f / (count + 1.0f), cached_share = 1.0f / (cached_count + 1.0f),
-                specular_share = 1.0f / (specular_count + 1.0f);
+    const auto n = static_cast<float>(sample.count);
+    const float share = n / (count + n), cached_share = n / (cached_count + n),
+                specular_share = n / (specular_count + n);
     // By Term.
     const std::array<float, term_count> shares = {share, specular_share, share, cached_share,
                                                   cached_share};
@@ -510,9 +546,9 @@ void ShadingCache::add(const std::vector<LiveSample>& samples) {
     } else if (sample.mirrored >= 0.0f) {
       mirrored += (sample.mirrored - mirrored) * specular_share;
     }
-    count += 1.0f;
-    cached_count += 1.0f;
-    specular_count += 1.0f;
+    count += n;
+    cached_count += n;
+    specular_count += n;
     shades_.age[sample.pixel] = 0;
   });
 }

@@ -36,8 +36,8 @@ class ShadingCache {
   // call for more around them, and what was known there counts little.
   void expect_changes(bool expected) { changing_ = expected; }
 
-  // A new frame of the same view.
-  void rest();
+  // A new frame of the same view, whose pixels' middles see this.
+  void rest(const VisibleSurfaces& seen);
 
   // What pixels show rests on so many samples at most from now on, > 0.
   void doubt(float most);
@@ -47,8 +47,9 @@ class ShadingCache {
   // All pixels show nothing again.
   void forget();
 
-  // About so many pixels to trace, each with a sample number of its own: those that show nothing
-  // yet first, then by age and by how few samples they rest on, spread by error diffusion.
+  // About so many samples to trace, of a view at rest several of a pixel if it is noisy: of pixels
+  // that show nothing yet first, then by age and by how few samples they rest on, spread by error
+  // diffusion.
   void choose(std::size_t count, std::vector<LiveRequest>& requests);
 
   void add(const std::vector<LiveSample>& samples);
@@ -60,7 +61,9 @@ class ShadingCache {
   int width() const { return width_; }
   int height() const { return height_; }
   // Of what pixels show, in this frame and the one before.
-  std::size_t bytes() const { return shades_.bytes() + last_shades_.bytes(); }
+  std::size_t bytes() const {
+    return shades_.bytes() + last_shades_.bytes() + numbers_.size() * sizeof(std::uint32_t);
+  }
   // Mean over the pixels of the frames since they were traced, as the frame began.
   double mean_age() const;
   // Pixels that rest on no sample.
@@ -91,10 +94,10 @@ class ShadingCache {
                  sizeof(float);
     }
   };
-  // Of a view that rested, the pixels that edges go through: their samples, which were spread over
-  // them, are of more than one surface. Empty: of one that moved.
-  std::vector<std::uint8_t> mixed_;
-  bool rested_ = false;
+  // Of the view that rests, or rested last, the pixels that edges go through: their samples, which
+  // are spread over them, are of more than one surface.
+  std::vector<std::uint8_t> edges_;
+  bool rested_ = false, last_rested_ = false;  // this view has, the one before has
 
   // What choose() goes by, of a row.
   struct Row {
@@ -107,8 +110,10 @@ class ShadingCache {
                   const Visibility& visibility, std::vector<std::uint32_t>& doubtful);
   void follow_mirror(const LiveTracer& tracer, const class Reprojection& reprojection, int x, int y,
                      const Visibility& visibility);
-  void find_mixed(const VisibleSurfaces& seen);
-  bool is_mixed(std::size_t pixel) const { return !mixed_.empty() && mixed_[pixel] != 0; }
+  bool is_edge(const VisibleSurfaces& seen, int x, int y) const;
+  void find_edges(const VisibleSurfaces& seen);
+  void doubt(std::size_t pixel, float most);
+  bool is_mixed(std::size_t pixel) const { return last_rested_ && edges_[pixel] != 0; }
   void grow_older(int y);
   void spread_urgency();
   void share_noise();
@@ -124,8 +129,10 @@ class ShadingCache {
   }
 
   int width_, height_;
-  std::uint32_t frame_ = 0;  // numbers samples
+  std::uint32_t frame_ = 0;
   Shades shades_, last_shades_;
+  // Of pixels, the number of the next sample: a sequence of each covers its domain evenly.
+  std::vector<std::uint32_t> numbers_;
   std::vector<Row> rows_;
 
   // Where the light was seen to change, [0, 1], of blocks of pixels.
@@ -134,6 +141,7 @@ class ShadingCache {
   std::vector<float> urgency_;
   // How much more samples are worth there than elsewhere, as they are noisier.
   std::vector<float> noisiness_;
+  float noise_scale_ = 0.0f;  // 1 / mean noise
   bool changing_ = false;
 };
 

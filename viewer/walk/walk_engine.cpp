@@ -17,6 +17,7 @@ constexpr double learning = 0.3;
 constexpr double much_cheaper = 0.5, learning_of_much = 0.7;
 // Of a frame's time for tracing, records have this share while there are some to make.
 constexpr double share_of_records = 0.33;
+constexpr double share_of_records_at_rest = 0.55;
 // Likewise what there is has this share to become better in, as long as the eye moves.
 constexpr double share_of_refining = 0.1;
 // And photons this one, as long as there are too few, and at rest.
@@ -66,9 +67,10 @@ void WalkEngine::trace_all() {
   requests_.clear();
   const std::size_t pixels = std::size_t(width_) * std::size_t(height_);
   for (std::size_t i = 0; i < pixels; ++i)
-    requests_.push_back({static_cast<std::uint32_t>(i), frame_});
+    requests_.push_back({static_cast<std::uint32_t>(i), frame_, 1});
   tracer_.trace(requests_, moved_, samples_);
   shading_.add(samples_);
+  traced_ = requests_.size();
 }
 
 // Samples that were taken before cached light became better are worth less.
@@ -125,8 +127,10 @@ void WalkEngine::trace_within(double seconds) {
   verify_chosen();
   tracer_.trace(requests_, moved_, samples_);
   shading_.add(samples_);
-  if (requests_.empty()) return;
-  const double each = seconds_since(start) / static_cast<double>(requests_.size());
+  traced_ = 0;
+  for (const LiveRequest& r : requests_) traced_ += r.count;
+  if (traced_ == 0) return;
+  const double each = seconds_since(start) / static_cast<double>(traced_);
   sample_seconds_ += (each < much_cheaper * sample_seconds_ ? learning_of_much : learning) *
                      (each - sample_seconds_);
 }
@@ -160,7 +164,7 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
       visibility_.see_again(tracer_, others_);
       if (mode_.reuse == Reuse::image) shading_.clear(others_);
     }
-    shading_.rest();
+    shading_.rest(visibility_.now());
     ++resting_;
   }
   moved_ = moved;
@@ -173,7 +177,8 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
     const double least =
         frame_ == 0 ? share_of_records * first_frame_seconds : least_share_of_records * frame_time;
-    change_light([&] { improve(std::max(least, share_of_records * left)); });
+    const double share = resting_ >= frames_to_rest ? share_of_records_at_rest : share_of_records;
+    change_light([&] { improve(std::max(least, share * left)); });
     frame.seconds_records = seconds_since(start) - frame.seconds_view;
     trace_within(frame_time - seconds_since(start) - fixed_seconds_);
   } else {
@@ -190,10 +195,10 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   fixed_seconds_ += learning * (after - fixed_seconds_);
   frame.seconds = seconds_since(start);
   seconds_since_change_ += frame.seconds;
-  samples_at_rest_ += samples_.size();
+  samples_at_rest_ += traced_;
   ++frame_;
 
-  frame.traced = samples_.size();
+  frame.traced = traced_;
   frame.rays = moved ? visibility_.ray_count() : 0;
   frame.holes = shading_.hole_count();
   frame.mean_age = shading_.mean_age();

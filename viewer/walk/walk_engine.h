@@ -103,6 +103,7 @@ class WalkEngine {
   bool changes_ = false;             // ever
   double seconds_since_change_ = 0;  // of frames
   std::size_t samples_at_rest_ = 0;  // since the eye or the scene moved
+  std::size_t traced_ = 0;           // samples of this frame
   std::size_t next_map_ = 0;         // at how many other photons are wanted
   std::uint32_t frame_ = 0;
   double sample_seconds_;         // of one sample, as measured
