@@ -33,10 +33,8 @@ constexpr float least_share = 0.05f;
 // The share of its four pixels in the last view that must have shown a surface which is guessed.
 constexpr float sure_share = 0.999f;
 // Of a view that comes to rest, what was carried over counts like so many samples at most: a sample
-// more then makes no pixel noisier than it was, and many leave little of it. Less where edges go
-// through pixels, whose middles it shows.
+// more then makes no pixel noisier than it was, and many leave little of it.
 constexpr float most_carried_samples = 6.0f;
-constexpr float most_carried_samples_at_edges = 1.0f;
 // The age that counts like one sample less.
 constexpr float age_unit = 4.0f;
 // Where the scene changes: a sample that differs by this share calls for more in its block, so many
@@ -55,6 +53,10 @@ constexpr float least_noisiness = 0.15f;
 // At rest, samples of pixels that edges go through are worth what their own noise says, which that
 // of their blocks hides; at most so many times more of them than there is noise.
 constexpr float most_noisiness_at_edges = 8.0f;
+// Before any is known of it, their first samples are worth so many times the average, and so many
+// are taken at once: a single one would be worse than what the pixel's middle shows.
+constexpr float first_noisiness_at_edges = 16.0f;
+constexpr float first_samples_at_edges = 4.0f;
 // Of a pixel, in a frame of a view at rest.
 constexpr float most_samples_at_once = 8.0f;
 // Rows whose errors are diffused by themselves, so that several threads choose.
@@ -373,6 +375,7 @@ float ShadingCache::want(std::size_t pixel) const {
     // Samples in proportion to the noise: their number's growth to its square.
     const float own = noise_scale_ * std::sqrt(shades_.noise[pixel]);
     noisiness = std::max(noisiness, own * std::min(own, most_noisiness_at_edges));
+    if (is_untried_edge(pixel)) noisiness = std::max(noisiness, first_noisiness_at_edges);
   }
   return noisiness * (1.0f + most_urgent * urgency_[block]) *
          (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) / (1.0f + samples);
@@ -486,7 +489,8 @@ void ShadingCache::choose(std::size_t count, std::vector<LiveRequest>& requests)
                                                         std::min(1.0f, std::floor(density)), most)
                                            : 0.0f;
         if (taken > 0.0f) {
-          const auto samples = static_cast<std::uint32_t>(taken);
+          const auto samples = static_cast<std::uint32_t>(
+              is_untried_edge(i) ? std::max(taken, first_samples_at_edges) : taken);
           to.push_back({static_cast<std::uint32_t>(i), numbers_[i], samples});
           numbers_[i] += samples;
         }

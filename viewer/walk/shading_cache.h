@@ -70,6 +70,10 @@ class ShadingCache {
   std::size_t hole_count() const;
 
  private:
+  // Of a view that comes to rest, what was carried over to pixels that edges go through counts like
+  // so many samples at most: it shows their middles.
+  static constexpr float most_carried_samples_at_edges = 1.0f;
+
   // Radiance of a pixel: five terms of three channels, means of samples, and how many samples they
   // rest on, in effect. A cache line.
   struct alignas(64) Shade {
@@ -114,6 +118,11 @@ class ShadingCache {
   void find_edges(const VisibleSurfaces& seen);
   void doubt(std::size_t pixel, float most);
   bool is_mixed(std::size_t pixel) const { return last_rested_ && edges_[pixel] != 0; }
+  // Whether an edge goes through it that no sample of the resting view has shown yet.
+  bool is_untried_edge(std::size_t pixel) const {
+    return rested_ && edges_[pixel] != 0 &&
+           shades_.shade[pixel].samples() <= most_carried_samples_at_edges;
+  }
   void grow_older(int y);
   void spread_urgency();
   void share_noise();
