@@ -447,6 +447,20 @@ TEST_F(WindowTest, RestsWhileMinimised) {
   EXPECT_GT(shot("c.png").around(red_x, wall_y)[0], 20.0);
 }
 
+// Text grows and shrinks while the window is open, panels with it, and is remembered.
+TEST_F(WindowTest, MakesTextLarger) {
+  replay(
+      "resize 1200x500\nuntil loaded\nframes 2\nstate a.json\nshot a.png\nkey Ctrl++\n"
+      "key Ctrl++\nkey Ctrl++\nframes 2\nuntil loaded\nstate b.json\nshot b.png\nkey Ctrl+-\n"
+      "frames 3\nstate c.json");
+  const double before = state("a.json")["text_size"], after = state("b.json")["text_size"];
+  const double step = 1.125;
+  EXPECT_NEAR(after, before * step * step * step, 0.5) << "whole dots";
+  EXPECT_NEAR(state("c.json")["text_size"].get<double>(), before * step * step, 0.5);
+  // The panel takes its share of the picture.
+  EXPECT_LT(state("b.json")["picture"][0].get<int>(), state("a.json")["picture"][0].get<int>());
+}
+
 // On a display of twice the usual density all is twice as large, and stays so.
 TEST_F(WindowTest, KeepsItsSizeOnDenseDisplays) {
   if (!show_display()) GTEST_SKIP() << "there is no Xvfb";

@@ -10,6 +10,7 @@
 #include "viewer/errors.h"
 #include "viewer/option_values.h"
 #include "viewer/suggestion.h"
+#include "viewer/text_format.h"
 #include "viewer/walk/camera_path.h"
 
 namespace lumivec {
@@ -37,18 +38,6 @@ std::string number_text(float value) {
 
 std::string vector_text(const V3d& v) {
   return number_text(v.x) + "," + number_text(v.y) + "," + number_text(v.z);
-}
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
 }
 
 V3d parse_vector(const std::string& option, const std::string& text) {

@@ -1,8 +1,9 @@
-// Numbers as people read them.
+// Text made of numbers, as people read them, and taken apart.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lumivec {
 
@@ -12,5 +13,8 @@ std::string format_bytes(std::uint64_t bytes);                 // "512 B", "1.5 
 std::string format_count(std::uint64_t count);                 // "1,234,567"
 std::string format_number(double value, int significant = 4);  // as printf's %g
 std::string format_fixed(double value, int decimals);          // as printf's %f
+
+// What lies between separators: always one part more than there are of them.
+std::vector<std::string> split(const std::string& text, char separator);
 
 }  // namespace lumivec

@@ -2,19 +2,34 @@
 
 #include <exception>
 #include <new>
+#include <optional>
+#include <utility>
 
 namespace lumivec {
 
 BackgroundRender::~BackgroundRender() {
-  cancel();
+  stop();
+}
+
+void BackgroundRender::cancel_locked() {
+  if (job_) job_->cancelled = true;
+  next_.reset();
+  state_.running = false;
 }
 
 void BackgroundRender::cancel() {
-  cancelled_ = true;
-  if (thread_.joinable()) thread_.join();
-  cancelled_ = false;
   const std::lock_guard lock(mutex_);
-  state_.running = false;
+  cancel_locked();
+}
+
+void BackgroundRender::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    cancel_locked();
+    stopping_ = true;
+  }
+  changed_.notify_one();
+  if (thread_.joinable()) thread_.join();
 }
 
 BackgroundRender::State BackgroundRender::state() const {
@@ -25,56 +40,81 @@ BackgroundRender::State BackgroundRender::state() const {
 int BackgroundRender::start(std::shared_ptr<const LoadedScene> scene, const ScenePatch& patch,
                             const Camera& camera, const RenderSettings& settings, Finish finish,
                             std::function<void()> on_news) {
-  cancel();
-  const int number = ++number_;
+  auto job = std::make_shared<Job>();
+  job->scene = std::move(scene);
+  job->patch = patch;
+  job->camera = camera;
+  job->settings = settings;
+  job->finish = std::move(finish);
+  job->on_news = std::move(on_news);
+  int number = 0;
   {
     const std::lock_guard lock(mutex_);
+    cancel_locked();
+    number = job->number = ++number_;
+    next_ = std::move(job);
     state_.running = true;
     state_.fraction = 0.0;
     state_.seconds_left = 0.0;
   }
-  thread_ = std::thread([this, number, scene = std::move(scene), patch, camera, settings,
-                         finish = std::move(finish), on_news = std::move(on_news)] {
-    const auto progress = [&](const RenderProgress& now) {
-      {
-        const std::lock_guard lock(mutex_);
-        state_.fraction = now.fraction;
-        state_.seconds_left = now.seconds_left;
-      }
-      on_news();
-      return !cancelled_;
-    };
-    std::string said;
-    bool failed = false;
-    try {
-      RenderStatistics statistics;
-      std::optional<Scene> changed;
-      if (!patch.empty()) {
-        changed = scene->scene;
-        apply_patch(patch, *changed);
-      }
-      const Scene& traced = changed ? *changed : scene->scene;
-      const Framebuffer picture = render(traced, camera, settings, statistics, progress);
-      if (cancelled_) return;
-      said = finish(picture, statistics);
-    } catch (const std::bad_alloc&) {
-      failed = true;
-      said = "out of memory; choose a smaller picture";
-    } catch (const std::exception& error) {
-      failed = true;
-      said = error.what();
-    }
-    if (cancelled_) return;
+  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  changed_.notify_one();
+  return number;
+}
+
+void BackgroundRender::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return stopping_ || next_; });
+    if (stopping_) return;
+    job_ = std::exchange(next_, nullptr);
+    lock.unlock();
+    perform(*job_);
+    lock.lock();
+    job_.reset();
+  }
+}
+
+void BackgroundRender::perform(Job& job) {
+  const auto progress = [&](const RenderProgress& now) {
     {
       const std::lock_guard lock(mutex_);
-      state_.running = false;
-      state_.failed = failed;
-      state_.said = said;
-      state_.ended = number;
+      if (job.cancelled) return false;
+      state_.fraction = now.fraction;
+      state_.seconds_left = now.seconds_left;
     }
-    on_news();
-  });
-  return number;
+    job.on_news();
+    return true;
+  };
+  std::string said;
+  bool failed = false;
+  try {
+    RenderStatistics statistics;
+    std::optional<Scene> changed;
+    if (!job.patch.empty()) {
+      changed = job.scene->scene;
+      apply_patch(job.patch, *changed);
+    }
+    const Scene& traced = changed ? *changed : job.scene->scene;
+    const Framebuffer picture = render(traced, job.camera, job.settings, statistics, progress);
+    if (job.cancelled) return;
+    said = job.finish(picture, statistics);
+  } catch (const std::bad_alloc&) {
+    failed = true;
+    said = "out of memory; choose a smaller picture";
+  } catch (const std::exception& error) {
+    failed = true;
+    said = error.what();
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (job.cancelled) return;
+    state_.running = false;
+    state_.failed = failed;
+    state_.said = said;
+    state_.ended = job.number;
+  }
+  job.on_news();
 }
 
 }  // namespace lumivec

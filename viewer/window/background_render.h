@@ -1,7 +1,8 @@
-// A render that goes on while the window is used.
+// Renders that go on while the window is used, one at a time.
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -25,13 +26,16 @@ class BackgroundRender {
   BackgroundRender(const BackgroundRender&) = delete;
   BackgroundRender& operator=(const BackgroundRender&) = delete;
 
-  // Of the scene with the patch. Ends a render that is going on, without its Finish. on_news is
-  // called on the render's thread when progress is made and when it ends. Returns the render's
-  // number.
+  // Of the scene with the patch. Takes the place of a render that is going on, and begins once that
+  // has noticed. on_news is called on the render's thread when progress is made and when it ends.
+  // Returns the render's number.
   int start(std::shared_ptr<const LoadedScene> scene, const ScenePatch& patch, const Camera& camera,
             const RenderSettings& settings, Finish finish, std::function<void()> on_news);
-  // Waits until the render has noticed.
+  // The render that goes on, if any, ends by and by without a word, and without its Finish unless
+  // that has begun. Does not wait.
   void cancel();
+  // Likewise, and waits until it has; there is no start() after this.
+  void stop();
 
   struct State {
     bool running = false;
@@ -44,10 +48,27 @@ class BackgroundRender {
   State state() const;
 
  private:
+  struct Job {
+    int number = 0;
+    std::shared_ptr<const LoadedScene> scene;
+    ScenePatch patch;
+    Camera camera;
+    RenderSettings settings;
+    Finish finish;
+    std::function<void()> on_news;
+    std::atomic<bool> cancelled = false;
+  };
+
+  void work();
+  void perform(Job& job);
+  void cancel_locked();
+
   std::thread thread_;
-  std::atomic<bool> cancelled_ = false;
+  mutable std::mutex mutex_;  // of all below
+  std::condition_variable changed_;
+  std::shared_ptr<Job> job_, next_;  // that goes on; that follows
+  bool stopping_ = false;
   int number_ = 0;  // of the last render that was started
-  mutable std::mutex mutex_;
   State state_;
 };
 

@@ -54,6 +54,8 @@ enum class Action {
   export_still,
   help,
   panels,
+  larger_text,
+  smaller_text,
   full_screen,
   close,
   quit

@@ -283,6 +283,7 @@ void ScriptPlayer::write_state(const fs::path& file) {
       {"own_frame_seconds", window_.own_seconds()},
       {"display_rate", window_.display_rate()},
       {"interface_scale", window_.scale().interface},
+      {"text_size", window_.text_size()},
       {"first_picture_seconds", window_.first_picture_seconds()},
       {"resident_bytes", resident_bytes()}};
   write_text_atomically(file, json_text(json));

@@ -57,7 +57,8 @@ WindowSettings read_settings(const fs::path& file) {
   constexpr int most_side = 16384;
   read_number(json, "width", 160, most_side, settings.width);
   read_number(json, "height", 120, most_side, settings.height);
-  read_number(json, "interface_scale", 0.5f, 4.0f, settings.interface_scale);
+  read_number(json, "interface_scale", least_interface_scale, most_interface_scale,
+              settings.interface_scale);
   read_number(json, "pixel_size", 0, 16, settings.pixel_size);
   read_number(json, "frame_time", 0.001, 10.0, settings.frame_time);
   read_number(json, "rest_samples", 1.0, 1e9, settings.rest_samples);

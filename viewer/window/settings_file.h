@@ -7,6 +7,8 @@
 
 namespace lumivec {
 
+constexpr float least_interface_scale = 0.5f, most_interface_scale = 4.0f;
+
 struct WindowSettings {
   int width = 0, height = 0;  // of the window, on a usual display; 0: as the scene asks
   bool panels = true;

@@ -113,20 +113,10 @@ Window::Window(const WindowOptions& options)
 
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
-  ImGui::StyleColorsDark();
-  scale_ = scale_of(window);
-  const float scale =
-      state_.settings.interface_scale > 0.0f ? state_.settings.interface_scale : scale_.interface;
-  // Letters are drawn in dots, so that they are sharp, and laid out in window units.
-  ImFontConfig font;
-  font.SizePixels = std::round(letter_height * scale * scale_.density);
-  text_size_ = font.SizePixels / scale_.density;
-  ImGui::GetIO().Fonts->AddFontDefault(&font);
-  ImGui::GetIO().FontGlobalScale = 1.0f / scale_.density;
-  ImGui::GetStyle().ScaleAllSizes(scale);
   // They call what was there before: what is above.
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
+  fit_text();
 
   if (!options.script.empty()) script_ = std::make_unique<ScriptPlayer>(options.script, *this);
   if (!options.scene.file.empty()) {
@@ -136,12 +126,38 @@ Window::Window(const WindowOptions& options)
 }
 
 Window::~Window() {
-  still_.cancel();
-  reference_render_.cancel();
+  still_.stop();
+  reference_render_.stop();
   display_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
+}
+
+// Text and spaces for the display that the window is on, and as large as the user wants them.
+void Window::fit_text() {
+  const WindowScale scale = scale_of(gl_.handle());
+  const float wanted = state_.settings.interface_scale;
+  const bool again = text_size_ > 0.0f;
+  if (again && scale == scale_ && wanted == text_scale_wanted_) return;
+  scale_ = scale;
+  text_scale_wanted_ = wanted;
+  const float size = wanted > 0.0f ? wanted : scale_.interface;
+  // Letters are drawn in dots, so that they are sharp, and laid out in window units.
+  ImFontConfig font;
+  font.SizePixels = std::round(letter_height * size * scale_.density);
+  text_size_ = font.SizePixels / scale_.density;
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  fonts.Clear();
+  fonts.AddFontDefault(&font);
+  ImGui::GetIO().FontGlobalScale = 1.0f / scale_.density;
+  if (again) {
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
+  ImGui::GetStyle() = ImGuiStyle();
+  ImGui::StyleColorsDark();
+  ImGui::GetStyle().ScaleAllSizes(size);
 }
 
 int Window::run() {
@@ -161,6 +177,7 @@ int Window::run() {
     follow_engine();
     follow_renders();
     follow_files();
+    fit_text();
     layout();
     move_eye();
     perform_wishes();

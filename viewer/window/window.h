@@ -62,6 +62,7 @@ class Window {
   }
   double display_rate() const { return display_rate_; }
   const WindowScale& scale() const { return scale_; }
+  float text_size() const { return text_size_; }
   std::size_t edits_done() const { return edits_.done(); }
   const ScenePatch& patch() const { return edits_.patch(); }
   // Where the mouse is for the panels, instead of where it really is; and which buttons are down.
@@ -105,6 +106,7 @@ class Window {
   void ask_engine();
   void render_reference();
 
+  void fit_text();
   void layout();
   void draw();
   void draw_picture();
@@ -157,7 +159,8 @@ class Window {
   float picture_width_ = 1.0f, picture_height_ = 1.0f;
   Viewport viewport_;
   WindowScale scale_;
-  float text_size_ = 13.0f;  // window units
+  float text_size_ = 0.0f;          // window units; 0: there is none yet
+  float text_scale_wanted_ = 0.0f;  // Settings::interface_scale that it is for
   bool iconified_ = false;
   std::array<int, 4> windowed_{};  // place and size before full screen
 

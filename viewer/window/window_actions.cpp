@@ -154,6 +154,15 @@ void Window::perform(const KeyAction& action) {
     case Action::restart:
       ++state_.knobs.restarts;
       break;
+    case Action::larger_text:
+    case Action::smaller_text: {
+      constexpr float step = 1.125f;
+      float& size = state_.settings.interface_scale;
+      if (!(size > 0.0f)) size = scale_.interface;
+      size *= action.action == Action::larger_text ? step : 1.0f / step;
+      size = std::clamp(size, least_interface_scale, most_interface_scale);
+      break;
+    }
     case Action::finer:
       state_.settings.pixel_size = std::max(1, figures_.pixel_size - 1);
       break;
