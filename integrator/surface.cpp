@@ -188,6 +188,15 @@ PatternedSurface TracedScene::patterned(const SurfacePoint& point) const {
                                     point.error);
 }
 
+// On the same side as the normal without bumps: what they turn away from it stays as it is.
+V3f TracedScene::bent_normal(const SurfacePoint& point) const {
+  const float side = point.front ? 1.0f : -1.0f;
+  const V3d outward = V3d(point.normal * side);
+  const V3d bent = scene_.patterns[std::size_t(point.material->pattern)]->bent(
+      V3d(point.position) + origin_, outward);
+  return bent.dot(outward) > 0.0 ? V3f(bent) * side : point.normal;
+}
+
 float TracedScene::opacity(const SurfacePoint& point) const {
   const Material& m = *point.material;
   if (m.alpha_mode == AlphaMode::opaque) return 1.0f;
@@ -320,6 +329,7 @@ SurfaceParameters TracedScene::parameters(const SurfacePoint& point, float outsi
   p.normal = point.normal;
   p.coat_normal = point.normal;
   if (constant < 0) {
+    if (m.pattern >= 0) p.normal = bent_normal(point);
     if (m.normal_map.image >= 0) {
       p.normal = mapped_normal(point, m.normal_map, m.normal_scale, point.normal);
     }

@@ -158,6 +158,7 @@ class TracedScene {
   };
 
   PatternedSurface patterned(const SurfacePoint& point) const;
+  V3f bent_normal(const SurfacePoint& point) const;
   SurfaceParameters appearance(const SurfacePoint& point) const;
   void prepare_constants();
   void place(const Frame* frame);

@@ -93,6 +93,10 @@ class SurfacePattern {
   // point: world space. normal: unit, of the geometry there. error: how far the point may be off
   // the surface, scene units; cells that meet in the surface itself are told apart by it.
   virtual PatternedSurface at(const V3d& point, const V3d& normal, double error) const noexcept = 0;
+
+  // The normal that is shaded. normal: unit, world space, on the outer side, as it is without
+  // bumps. The result is of unit length, on either side.
+  virtual V3d bent(const V3d& /*point*/, const V3d& normal) const noexcept { return normal; }
 };
 
 // A metallic-roughness surface with coat, transmission and absorption. Each map multiplies its

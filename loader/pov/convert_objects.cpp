@@ -54,7 +54,7 @@ void mention_surface(Parser& parser, const Place& place, const SurfaceNotes& not
     parser.mention(place,
                    "ambient light is left out: light comes from lamps, the sky and surfaces");
   }
-  if (notes.bumps) parser.mention(place, "the bumps of a normal are left out");
+  if (notes.bumps) parser.mention(place, "bumps of a normal are left out");
   if (notes.metallic) parser.mention(place, "a metallic highlight has the color of the light");
   if (notes.brilliance) parser.mention(place, "brilliance is left out");
 }

@@ -39,7 +39,7 @@ bool parse_item(Parser& parser, Normal& normal) {
     return true;
   }
   if (parser.accept(K::bump_size_)) {
-    normal.bump_size = parse_float(parser, "bump_size");
+    normal.amount = normal.bump_size = parse_float(parser, "bump_size");
     return true;
   }
   if (parser.accept(K::accuracy_)) {

@@ -329,6 +329,11 @@ bool chooses(const Pattern& pattern) {
   return pattern.kind == K::checker_ || pattern.kind == K::brick_ || pattern.kind == K::hexagon_;
 }
 
+std::optional<V3d> pattern_place(const Pattern& pattern, const V3d& point) {
+  if (!follows_warps(pattern)) return std::nullopt;
+  return pattern_point(pattern, {point, V3d(0.0)}, true).at;
+}
+
 std::optional<double> pattern_value(const Pattern& pattern, const V3d& point, const V3d& spread) {
   if (!follows_warps(pattern)) return std::nullopt;
   const auto value =

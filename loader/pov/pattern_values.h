@@ -14,6 +14,10 @@ namespace lumivec::pov {
 std::optional<double> pattern_value(const Pattern& pattern, const V3d& point,
                                     const V3d& spread = V3d(0.0));
 
+// Where the point lies for the pattern: against its transforms, turbulence and warps. None: they
+// are not such that can be followed.
+std::optional<V3d> pattern_place(const Pattern& pattern, const V3d& point);
+
 // As written, without gamma. approximate becomes true where the pigment could not be followed.
 ColorFT pigment_color(const Pigment& pigment, const V3d& point, bool& approximate,
                       const V3d& spread = V3d(0.0));

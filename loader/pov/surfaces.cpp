@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loader/pov/bumps.h"
 #include "loader/pov/pattern_values.h"
 
 namespace lumivec::pov {
@@ -239,7 +240,6 @@ Material surface_at(const Texture& texture, const TexturePoint& p, const Setting
   Material material = dull_surface();
   bool lowest = true;
   for (const TextureLayer& layer : texture.layers) {
-    notes.bumps |= layer.has_normal;
     const TexturePoint inside = moved(p, layer.transform);
     if (!layer.textures.empty()) {
       const Material chosen = chosen_surface(layer, inside, setting, notes);
@@ -277,6 +277,9 @@ class TexturePattern final : public SurfacePattern {
         interior_(std::move(interior)),
         setting_{interior_.get(), choice.gamma, choice.lamp},
         world_to_texture_(choice.world_to_texture),
+        normal_to_texture_(choice.world_to_texture.inverse().transposed()),
+        normal_to_world_(choice.world_to_texture.transposed()),
+        bumps_(has_bumps(*texture_)),
         mirrors_(mean.ior == 0.0f) {}
 
   PatternedSurface at(const V3d& point, const V3d& normal, double error) const noexcept override {
@@ -295,6 +298,17 @@ class TexturePattern final : public SurfacePattern {
     return surface;
   }
 
+  V3d bent(const V3d& point, const V3d& normal) const noexcept override {
+    if (!bumps_) return normal;
+    V3d inside, outside;
+    normal_to_texture_.multDirMatrix(normal, inside);
+    bool approximate = false;
+    normal_to_world_.multDirMatrix(
+        bent_normal(*texture_, point * world_to_texture_, inside, approximate), outside);
+    const double length = outside.length();
+    return length > 0.0 && std::isfinite(length) ? outside / length : normal;
+  }
+
  private:
   static Color finite(const Color& c) {
     static constexpr float most = 1e30f;
@@ -306,6 +320,8 @@ class TexturePattern final : public SurfacePattern {
   std::shared_ptr<const Interior> interior_;
   Setting setting_;
   M44d world_to_texture_;
+  M44d normal_to_texture_, normal_to_world_;  // of planes
+  bool bumps_;
   bool mirrors_;
 };
 
@@ -316,7 +332,7 @@ Material mean_surface(const Texture& texture, const Setting& setting, const Surf
   // Points of the R3 sequence, which do not fall into step with the cells of a pattern.
   constexpr double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
   constexpr double farthest = 100.0;  // of infinite shapes a part is as good as all
-  const bool known = !choice.bounds.isEmpty();
+  const bool known = !choice.bounds.isEmpty(), bumps = has_bumps(texture);
   Material sum;
   for (int i = 0; i < points; ++i) {
     V3d p;
@@ -326,7 +342,9 @@ Material mean_surface(const Texture& texture, const Setting& setting, const Surf
       const double turns = 0.5 + step[axis] * (i + 1);
       p[axis] = middle + half * (2.0 * (turns - std::floor(turns)) - 1.0);
     }
-    const Material m = surface_at(texture, {p * choice.world_to_texture, V3d(0.0)}, setting, notes);
+    const V3d at = p * choice.world_to_texture;
+    const Material m = surface_at(texture, {at, V3d(0.0)}, setting, notes);
+    if (bumps) bent_normal(texture, at, V3d(0.0, 1.0, 0.0), notes.bumps);
     sum = i == 0 ? m : between(sum, m, 1.0f / static_cast<float>(i + 1));
   }
   return sum;
@@ -335,10 +353,11 @@ Material mean_surface(const Texture& texture, const Setting& setting, const Surf
 }  // namespace
 
 bool varies(const Texture& texture) {
-  return std::any_of(texture.layers.begin(), texture.layers.end(), [](const TextureLayer& layer) {
-    return !layer.textures.empty() || layer.pigment.image ||
-           layer.pigment.pattern.kind != K::keyword_count;
-  });
+  return has_bumps(texture) ||
+         std::any_of(texture.layers.begin(), texture.layers.end(), [](const TextureLayer& layer) {
+           return !layer.textures.empty() || layer.pigment.image ||
+                  layer.pigment.pattern.kind != K::keyword_count;
+         });
 }
 
 Material surface_of(const Texture& texture, const Interior* interior, const SurfaceChoice& choice,
