@@ -23,15 +23,6 @@ V3d disc_reach(const V3d& normal) {
   return reach;
 }
 
-Box3d overlap(const Box3d& a, const Box3d& b) {
-  Box3d box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::max(a.min[i], b.min[i]);
-    box.max[i] = std::min(a.max[i], b.max[i]);
-  }
-  return box;
-}
-
 Box3d transformed(const Box3d& box, const M44d& m) {
   Box3d result;
   if (box.isEmpty()) return result;
@@ -159,6 +150,15 @@ struct ShapeBounds {
 };
 
 }  // namespace
+
+Box3d overlap(const Box3d& a, const Box3d& b) {
+  Box3d box;
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = std::max(a.min[i], b.min[i]);
+    box.max[i] = std::min(a.max[i], b.max[i]);
+  }
+  return box;
+}
 
 Box3d bounds_of(const Object& object) {
   Box3d box = std::visit(ShapeBounds(), object.shape);

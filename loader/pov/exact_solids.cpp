@@ -19,15 +19,6 @@ Box3d everywhere() {
   return {V3d(-infinity), V3d(infinity)};
 }
 
-Box3d overlap(const Box3d& a, const Box3d& b) {
-  Box3d box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::max(a.min[i], b.min[i]);
-    box.max[i] = std::min(a.max[i], b.max[i]);
-  }
-  return box;
-}
-
 // Bounds of infinite objects end a little before this.
 bool has_end(const Box3d& box) {
   constexpr double almost = 0.1 * beyond_all;
