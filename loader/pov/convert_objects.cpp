@@ -243,7 +243,13 @@ bool wants_solid(const Shape& shape, bool clipped) {
     return clipped;
   return std::holds_alternative<ConeShape>(shape) || std::holds_alternative<TorusShape>(shape) ||
          std::holds_alternative<std::shared_ptr<const QuadricShape>>(shape) ||
-         std::holds_alternative<std::shared_ptr<const PolyShape>>(shape);
+         std::holds_alternative<std::shared_ptr<const PolyShape>>(shape) ||
+         std::holds_alternative<SuperellipsoidShape>(shape) ||
+         std::holds_alternative<std::shared_ptr<const PrismShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const LatheShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const SorShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const BlobShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const SphereSweepShape>>(shape);
 }
 
 bool fits_tracing(const Solid& solid) {
@@ -293,7 +299,13 @@ bool add_solid(Conversion& conversion, const Object& object, const Around& aroun
   std::size_t bytes = sizeof(Solid) + materials.size() * sizeof(Instance) +
                       solid.nodes.size() * sizeof(SolidNode) +
                       solid.leaves.size() * sizeof(SolidLeaf);
-  for (const SolidLeaf& leaf : solid.leaves) bytes += leaf.terms.size() * sizeof(PolynomialTerm);
+  constexpr std::size_t tree_bytes = 200;  // of each element, with what finds it along a ray
+  for (const SolidLeaf& leaf : solid.leaves) {
+    bytes += leaf.terms.size() * sizeof(PolynomialTerm) +
+             leaf.curve.size() * (sizeof(CurvePiece) + tree_bytes) +
+             leaf.components.size() * (sizeof(BlobComponent) + tree_bytes) +
+             leaf.sweep.size() * (sizeof(SweepPiece) + tree_bytes);
+  }
   conversion.parser.claim(bytes);
   for (std::size_t part = 0; part < materials.size(); ++part) {
     Instance instance;

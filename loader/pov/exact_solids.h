@@ -37,8 +37,6 @@ class SolidBuilder {
   bool add_shape(const Object& object, const M44d& to_scene, const SolidAppearance& appearance,
                  int parent, bool complement);
   bool add_leaf(const Object& object, const M44d& to_scene, int part, int parent, bool complement);
-  bool add_open_cone(const Object& object, const ConeShape& cone, const M44d& to_scene, int part,
-                     bool complement);
   int add_node(const SolidNode& node);
 
   PartOf part_of_;
