@@ -108,7 +108,7 @@ struct ShapeBounds {
   Box3d operator()(const std::shared_ptr<const BicubicPatchShape>& p) const {
     return of_points(p->points);
   }
-  Box3d operator()(const std::shared_ptr<const TextShape>&) const { return {}; }
+  Box3d operator()(const std::shared_ptr<const TextShape>& t) const { return t->bounds; }
   Box3d operator()(const std::shared_ptr<const IsosurfaceShape>& s) const {
     if (s->sphere) return around(s->low, V3d(s->radius));
     Box3d box;

@@ -249,7 +249,8 @@ bool wants_solid(const Shape& shape, bool clipped) {
          std::holds_alternative<std::shared_ptr<const LatheShape>>(shape) ||
          std::holds_alternative<std::shared_ptr<const SorShape>>(shape) ||
          std::holds_alternative<std::shared_ptr<const BlobShape>>(shape) ||
-         std::holds_alternative<std::shared_ptr<const SphereSweepShape>>(shape);
+         std::holds_alternative<std::shared_ptr<const SphereSweepShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const TextShape>>(shape);
 }
 
 bool fits_tracing(const Solid& solid) {

@@ -1,11 +1,14 @@
 #include "loader/pov/exact_solids.h"
 
+#include <ImathBoxAlgo.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "loader/pov/bounds.h"
+#include "loader/pov/curves.h"
 #include "loader/pov/exact_shapes.h"
 #include "loader/transforms.h"
 
@@ -174,6 +177,42 @@ bool SolidBuilder::add_leaf(const Object& object, const M44d& to_scene, int part
   return true;
 }
 
+// Each glyph is a prism whose sweep, along y, becomes z.
+void SolidBuilder::add_text(const TextShape& text, const M44d& to_scene, int part, int parent,
+                            bool complement) {
+  SolidNode node;
+  node.operation = SolidOperation::unite;
+  node.complement = complement;
+  node.parent = parent;
+  node.bounds = everywhere();
+  const int at = add_node(node);
+  for (const TextShape::Glyph& glyph : text.glyphs) {
+    SolidLeaf leaf;
+    leaf.shape = SolidShape::prism;
+    leaf.curve = glyph.outline;
+    leaf.low = std::min(0.0, text.thickness);
+    leaf.high = std::max(0.0, text.thickness);
+    leaf.part = part;
+    leaf.to_solid = frame(V3d(1, 0, 0), V3d(0, 0, 1), V3d(0, 1, 0), glyph.pen) * to_scene;
+    if (leaf.low == leaf.high || !is_invertible(leaf.to_solid)) continue;
+    SolidNode of_glyph;
+    of_glyph.parent = at;
+    of_glyph.leaf = static_cast<int>(solid_.leaves.size());
+    Box3d box;
+    for (const CurvePiece& piece : leaf.curve) {
+      const auto u = control_values(piece.u), v = control_values(piece.v);
+      for (std::size_t i = 0; i < 4; ++i) {
+        box.extendBy(V3d(u[i], leaf.low, v[i]));
+        box.extendBy(V3d(u[i], leaf.high, v[i]));
+      }
+    }
+    of_glyph.bounds = Imath::transform(box, leaf.to_solid);
+    solid_.leaves.push_back(std::move(leaf));
+    add_node(of_glyph);
+  }
+  solid_.nodes[static_cast<std::size_t>(at)].end = static_cast<int>(solid_.nodes.size());
+}
+
 bool SolidBuilder::add_object(const Object& object, const M44d& around,
                               const SolidAppearance& appearance, int parent, bool complement) {
   if (is_clipped(object)) return false;
@@ -193,7 +232,12 @@ bool SolidBuilder::add_shape(const Object& object, const M44d& to_scene,
   const auto* combined = std::get_if<std::shared_ptr<const CombinedShape>>(&object.shape);
   if (!combined) {
     const int part = part_of_(object, appearance);
-    return part >= 0 && add_leaf(object, to_scene, part, parent, complement);
+    if (part < 0) return false;
+    if (const auto* text = std::get_if<std::shared_ptr<const TextShape>>(&object.shape)) {
+      add_text(**text, to_scene, part, parent, complement);
+      return true;
+    }
+    return add_leaf(object, to_scene, part, parent, complement);
   }
   const CombinedShape& shape = **combined;
   const bool united =
