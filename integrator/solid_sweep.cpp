@@ -76,7 +76,7 @@ void add_inside(const SweepPiece& piece, int element, const Axes& axes, const V3
   r = trimmed(r);
   const Polynomial h = sum(sum(product(r, r), product(u, u), -1.0), product(v, v), -1.0);
   const Roots ends = roots_between(h, 0.0, 1.0);
-  Roots turns;
+  Roots turns, tops;
   bool turns_known = false;
   for (int i = 0; i <= ends.count; ++i) {
     const double low = i > 0 ? ends.x[std::size_t(i - 1)] : 0.0;
@@ -86,6 +86,8 @@ void add_inside(const SweepPiece& piece, int element, const Axes& axes, const V3
       const Polynomial da = derivative(a), dh = derivative(h);
       turns =
           roots_between(trimmed(sum(product(dh, dh), product(h, product(da, da)), -4.0)), 0.0, 1.0);
+      // Where a does not change the polynomial only touches 0, where h' is 0.
+      tops = roots_between(dh, 0.0, 1.0);
       turns_known = true;
     }
     Inside inside;
@@ -98,9 +100,11 @@ void add_inside(const SweepPiece& piece, int element, const Axes& axes, const V3
     };
     widen(low);
     widen(high);
-    for (int k = 0; k < turns.count; ++k) {
-      const double s = turns.x[std::size_t(k)];
-      if (s > low && s < high) widen(s);
+    for (const Roots* roots : {&turns, &tops}) {
+      for (int k = 0; k < roots->count; ++k) {
+        const double s = roots->x[std::size_t(k)];
+        if (s > low && s < high) widen(s);
+      }
     }
     if (inside.first.t < inside.last.t) out.push_back(inside);
   }
