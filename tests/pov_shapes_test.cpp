@@ -164,6 +164,11 @@ TEST(PovShapes, FontsThatCannotBeHad) {
   EXPECT_NE(missing.error().find("line 1, column 12"), std::string::npos) << missing.error();
   PovFile wrong("text { ttf \"scene.pov\" \"A\" 1, 0 }");
   EXPECT_NE(wrong.error().find("no font"), std::string::npos) << wrong.error();
+  PovFile standard("text { ttf \"../timrom.ttf\" \"A\" 1, 0 }");
+  EXPECT_NE(standard.error(), "");
+  PovFile short_name("text { ttf \"tiny\" \"A\" 1, 0 }");
+  short_name.write("tiny.ttf", tiny_font());
+  EXPECT_EQ(hits(short_name.load(), V3d(-1.0, 0.1, 0.25), right).size(), 2u);
   PovFile outside("text { ttf \"../none.ttf\" \"A\" 1, 0 }");
   EXPECT_NE(outside.error(), "");
 }

@@ -5,6 +5,7 @@
 #include FT_OUTLINE_H
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "loader/pov/curves.h"
@@ -26,11 +27,30 @@ struct Font {
   std::unique_ptr<FT_FaceRec_, CloseFace> face;
 };
 
+// POV-Ray comes with these; where it is not installed they are not to be had, and scenes that name
+// them are shown without.
+bool is_standard(const std::string& file) {
+  constexpr std::array<std::string_view, 4> names = {"timrom.ttf", "cyrvetic.ttf", "crystal.ttf",
+                                                     "povlogo.ttf"};
+  return std::find(names.begin(), names.end(), file) != names.end();
+}
+
+// As the language has it, the extension may be left out. Without a face: a standard font that is
+// not there, which is mentioned.
 Font open_font(Parser& parser, const FontName& name) {
   Font font;
+  std::string file = name.file;
+  if (!parser.sources.exists(file, name.named_in)) {
+    const std::string extended = file + ".ttf";
+    if (is_standard(extended) || parser.sources.exists(extended, name.named_in)) file = extended;
+  }
   try {
-    font.bytes = parser.sources.read(name.file, name.named_in);
+    font.bytes = parser.sources.read(file, name.named_in);
   } catch (const FileProblem& problem) {
+    if (is_standard(file)) {
+      parser.mention(name.place, "a text is left out: " + problem.problem + "; " + problem.remedy);
+      return font;
+    }
     parser.fail_at(name.place, "the font of a text cannot be had: " + problem.problem,
                    problem.remedy);
   }
@@ -145,6 +165,7 @@ TextShape text_of(Parser& parser, const FontName& name, std::string_view text, d
                   const V3d& offset) {
   const Font font = open_font(parser, name);
   FT_Face face = font.face.get();
+  if (!face) return {};
   const double unit = 1.0 / face->units_per_EM;
   TextShape shape;
   shape.thickness = thickness;

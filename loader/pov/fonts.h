@@ -17,7 +17,8 @@ struct FontName {
 
 // The glyphs of a text one after another from the origin along x, an em being 1; offset is added
 // from each to the next. The text is UTF-8, or else Latin-1. thickness, which stays as it is, and
-// bounds are along z too. Fails with one line where there is no such font, or it is none.
+// bounds are along z too. Fails with one line where there is no such font, or it is none; the
+// four that come with POV-Ray are a warning where it is not installed.
 TextShape text_of(Parser& parser, const FontName& font, std::string_view text, double thickness,
                   const V3d& offset);
 
