@@ -6,13 +6,6 @@
 namespace lumivec {
 namespace {
 
-Polynomial derivative(const Polynomial& p) {
-  Polynomial d;
-  d.degree = p.degree - 1;
-  for (int i = 1; i <= p.degree; ++i) d.c[std::size_t(i - 1)] = p.c[std::size_t(i)] * i;
-  return d;
-}
-
 // Of a monotone stretch with different signs at its ends.
 double root_within(const Polynomial& p, const Polynomial& slope, double low, double high,
                    bool rising) {
@@ -34,6 +27,23 @@ double root_within(const Polynomial& p, const Polynomial& slope, double low, dou
 }
 
 }  // namespace
+
+Polynomial product(const Polynomial& a, const Polynomial& b) {
+  Polynomial p;
+  p.degree = a.degree + b.degree;
+  for (int i = 0; i <= a.degree; ++i) {
+    for (int j = 0; j <= b.degree; ++j)
+      p.c[std::size_t(i + j)] += a.c[std::size_t(i)] * b.c[std::size_t(j)];
+  }
+  return p;
+}
+
+Polynomial derivative(const Polynomial& p) {
+  Polynomial d;
+  d.degree = std::max(p.degree - 1, 0);
+  for (int i = 1; i <= p.degree; ++i) d.c[std::size_t(i - 1)] = p.c[std::size_t(i)] * i;
+  return d;
+}
 
 Roots roots_between(const Polynomial& polynomial, double low, double high) {
   Polynomial p = polynomial;

@@ -10,9 +10,12 @@
 
 namespace lumivec {
 
+// Of the polynomials here; those of sphere sweeps are the highest.
+constexpr int max_root_degree = 10;
+
 // Coefficients from the constant up.
 struct Polynomial {
-  std::array<double, max_polynomial_degree + 1> c{};
+  std::array<double, max_root_degree + 1> c{};
   int degree = 0;
 
   double operator()(double x) const {
@@ -22,8 +25,11 @@ struct Polynomial {
   }
 };
 
+Polynomial product(const Polynomial& a, const Polynomial& b);  // the degrees' sum must fit
+Polynomial derivative(const Polynomial& p);
+
 struct Roots {
-  std::array<double, max_polynomial_degree> x{};
+  std::array<double, max_root_degree> x{};
   int count = 0;
   void add(double root) { x[std::size_t(count++)] = root; }
 };

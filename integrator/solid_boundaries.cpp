@@ -32,21 +32,6 @@ Box3d placed(const Box3d& box, const M44d& m) {
   return result;
 }
 
-// Cuts near and far where the ray is outside the box; false: it never is inside.
-bool clip_to(const Box3d& box, const Line& ray, double& near, double& far) {
-  for (int i = 0; i < 3; ++i) {
-    if (ray.direction[i] == 0.0) {
-      if (ray.origin[i] < box.min[i] || ray.origin[i] > box.max[i]) return false;
-      continue;
-    }
-    const double a = (box.min[i] - ray.origin[i]) / ray.direction[i];
-    const double b = (box.max[i] - ray.origin[i]) / ray.direction[i];
-    near = std::max(near, std::min(a, b));
-    far = std::min(far, std::max(a, b));
-  }
-  return near <= far;
-}
-
 bool is_bounded(const Box3d& box) {
   return !box.isEmpty() && std::isfinite(box.size().length2());
 }
@@ -57,10 +42,12 @@ struct Walk {
   struct Event {
     double t;
     int leaf;
+    bool hidden;
     bool operator<(const Event& other) const {
       return t < other.t || (t == other.t && leaf < other.leaf);
     }
   };
+  Crossings crossings;
   std::vector<Event> events;
   std::vector<int> visited;           // nodes
   std::vector<int> inside_children;   // by node
@@ -79,7 +66,7 @@ bool combined(const SolidNode& node, int inside_children, int children) {
 TracedSolid::TracedSolid(const Solid& solid, int part, const M44d& object_to_traced)
     : solid_(&solid), part_(part), bounds_(placed(solid.bounds, object_to_traced)) {
   for (const SolidLeaf& leaf : solid.leaves)
-    leaves_.push_back({(leaf.to_solid * object_to_traced).inverse(), -1, false});
+    leaves_.push_back({(leaf.to_solid * object_to_traced).inverse(), elements_of(leaf), -1, false});
   children_.assign(solid.nodes.size(), 0);
   for (std::size_t i = 0; i < solid.nodes.size(); ++i) {
     const SolidNode& node = solid.nodes[i];
@@ -128,10 +115,11 @@ std::optional<TracedSolid::Boundary> TracedSolid::first_boundary(const Line& ray
     }
     if (node.leaf >= 0) {
       const Leaf& leaf = leaves_[std::size_t(node.leaf)];
-      const Crossings c =
-          crossings(solid_->leaves[std::size_t(node.leaf)], line_of(leaf, ray), start, stop);
-      walk.inside[at] = c.inside_at_start != node.complement;
-      for (int k = 0; k < c.count; ++k) walk.events.push_back({c.t[std::size_t(k)], node.leaf});
+      find_crossings(solid_->leaves[std::size_t(node.leaf)], leaf.elements, line_of(leaf, ray),
+                     start, stop, walk.crossings);
+      walk.inside[at] = walk.crossings.inside_at_start != node.complement;
+      for (const Crossing& c : walk.crossings.list)
+        walk.events.push_back({c.t, node.leaf, c.hidden});
     }
     ++i;
   }
@@ -172,22 +160,29 @@ std::optional<TracedSolid::Boundary> TracedSolid::first_boundary(const Line& ray
     const double together = t + same_place * (std::abs(t) + stop - start);
     const bool before = walk.inside[0];
     Boundary boundary{t, -1};
+    bool hidden = false;
     for (; i < walk.events.size() && walk.events[i].t <= together; ++i) {
-      if (toggle(walk.events[i].leaf)) boundary = {walk.events[i].t, walk.events[i].leaf};
+      if (!toggle(walk.events[i].leaf)) continue;
+      boundary = {walk.events[i].t, walk.events[i].leaf};
+      hidden = walk.events[i].hidden;
     }
-    if (bool(walk.inside[0]) == before || boundary.leaf < 0) continue;
+    if (bool(walk.inside[0]) == before || boundary.leaf < 0 || hidden) continue;
     if (solid_->leaves[std::size_t(boundary.leaf)].part == part_ && !cut_away()) return boundary;
   }
   return std::nullopt;
 }
 
 bool TracedSolid::contains(const V3d& point) const {
+  Crossings found;
   const auto inside = [&](const auto& self, std::size_t at) -> bool {
     const SolidNode& node = solid_->nodes[at];
     if (node.leaf >= 0) {
-      const SolidLeaf& leaf = solid_->leaves[std::size_t(node.leaf)];
-      const bool raw = field(leaf, point * leaves_[std::size_t(node.leaf)].to_leaf).value < 0.0;
-      return raw != node.complement;
+      // A line in no particular direction, which is inside at the point or is not.
+      const Line line{point, V3d(0.36, 0.48, 0.8)};
+      const Leaf& leaf = leaves_[std::size_t(node.leaf)];
+      find_crossings(solid_->leaves[std::size_t(node.leaf)], leaf.elements, line_of(leaf, line),
+                     0.0, 0x1p-20 * bounds_.size().length(), found);
+      return found.inside_at_start != node.complement;
     }
     int children = 0, within = 0;
     for (auto i = at + 1; i < std::size_t(node.end); i = std::size_t(solid_->nodes[i].end)) {
@@ -202,17 +197,18 @@ bool TracedSolid::contains(const V3d& point) const {
 TracedSolid::Place TracedSolid::place(int index, const Line& ray, double t) const {
   const Leaf& leaf = leaves_[std::size_t(index)];
   const SolidLeaf& shape = solid_->leaves[std::size_t(index)];
+  const Line line = line_of(leaf, ray);
+  thread_local Crossings found;
   // The distance has come back in single precision: the crossing that it was is nearby.
   const double around = 0x1p-20 * (std::abs(t) + bounds_.size().length() * 0x1p-4);
-  const Crossings c = crossings(shape, line_of(leaf, ray), t - around, t + around);
-  double nearest = t;
-  for (int i = 0; i < c.count; ++i) {
-    if (i == 0 || std::abs(c.t[std::size_t(i)] - t) < std::abs(nearest - t))
-      nearest = c.t[std::size_t(i)];
+  find_crossings(shape, leaf.elements, line, t - around, t + around, found);
+  Crossing nearest{t};
+  for (const Crossing& c : found.list) {
+    if (&c == &found.list[0] || std::abs(c.t - t) < std::abs(nearest.t - t)) nearest = c;
   }
   Place result;
-  result.point = ray.origin + ray.direction * nearest;
-  const V3d gradient = field(shape, result.point * leaf.to_leaf).gradient;
+  result.point = ray.origin + ray.direction * nearest.t;
+  const V3d gradient = outward_at(shape, leaf.elements, line, nearest);
   // The inverse transpose of the way from the primitive.
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) result.outward[i] += leaf.to_leaf[i][j] * gradient[j];

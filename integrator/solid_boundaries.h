@@ -42,6 +42,7 @@ class TracedSolid {
  private:
   struct Leaf {
     M44d to_leaf;  // from traced space
+    ElementTree elements;
     int node = -1;
     bool inside_out = false;  // the solid is where the primitive is not
   };

@@ -3,35 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrator/polynomial_roots.h"
+#include "integrator/solid_shapes.h"
+
 namespace lumivec {
 namespace {
-
-// Where a line is inside a convex shape; empty if last < first.
-struct Stretch {
-  double first = -std::numeric_limits<double>::infinity();
-  double last = std::numeric_limits<double>::infinity();
-
-  // Keeps low ≤ origin + t · direction ≤ high.
-  void cut(double origin, double direction, double low, double high) {
-    if (direction == 0.0) {
-      if (origin < low || origin > high) last = -std::numeric_limits<double>::infinity();
-      return;
-    }
-    const double a = (low - origin) / direction, b = (high - origin) / direction;
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
-  }
-};
-
-Crossings of_stretch(const Stretch& stretch, double start, double stop) {
-  Crossings result;
-  if (!(stretch.first < stretch.last)) return result;
-  result.inside_at_start = stretch.first <= start && start < stretch.last;
-  for (const double t : {stretch.first, stretch.last}) {
-    if (t > start && t <= stop) result.t[std::size_t(result.count++)] = t;
-  }
-  return result;
-}
 
 // Roots of a + 2 b t + c t², ascending.
 bool quadratic(double a, double b, double c, double& first, double& last) {
@@ -59,14 +35,15 @@ Stretch sphere_stretch(const Line& line, double radius) {
   return {middle - half, middle + half};
 }
 
-Stretch cone_stretch(const SolidLeaf& cone, const Line& line) {
+void cone_crossings(const SolidLeaf& cone, const Line& line, double start, double stop,
+                    Crossings& out) {
   Stretch slab;
   slab.cut(line.origin.y, line.direction.y, 0.0, 1.0);
+  const Stretch ends_apart = slab;
   const double most = std::max(cone.base_radius, cone.cap_radius);
   slab.cut(line.origin.x, line.direction.x, -most, most);
   slab.cut(line.origin.z, line.direction.z, -most, most);
-  if (!(slab.first < slab.last) || !std::isfinite(slab.first) || !std::isfinite(slab.last))
-    return {0.0, -1.0};
+  if (!(slab.first < slab.last) || !std::isfinite(slab.first) || !std::isfinite(slab.last)) return;
   const double middle = 0.5 * (slab.first + slab.last);
   const V3d o = line.origin + line.direction * middle;
   const V3d& d = line.direction;
@@ -93,17 +70,13 @@ Stretch cone_stretch(const SolidLeaf& cone, const Line& line) {
     if (result.last < result.first) result.first = ends[i] + middle;
     result.last = ends[i + 1] + middle;
   }
-  return result;
-}
-
-Polynomial product(const Polynomial& a, const Polynomial& b) {
-  Polynomial p;
-  p.degree = a.degree + b.degree;
-  for (int i = 0; i <= a.degree; ++i) {
-    for (int j = 0; j <= b.degree; ++j)
-      p.c[std::size_t(i + j)] += a.c[std::size_t(i)] * b.c[std::size_t(j)];
+  add_stretch(result, start, stop, out);
+  if (!cone.open) return;
+  const double rounding = 0x1p-40 * (slab.last - slab.first);
+  for (Crossing& crossing : out.list) {
+    crossing.hidden = std::abs(crossing.t - ends_apart.first) < rounding ||
+                      std::abs(crossing.t - ends_apart.last) < rounding;
   }
-  return p;
 }
 
 Polynomial along(const SolidLeaf& leaf, const V3d& origin, const V3d& direction) {
@@ -171,115 +144,177 @@ Polynomial along(const SolidLeaf& leaf, const V3d& origin, const V3d& direction)
 }
 
 // Expanded about the point of the line that is nearest to the origin, where the shape is.
-Crossings polynomial_crossings(const SolidLeaf& leaf, const Line& line, double start, double stop) {
+void polynomial_crossings(const SolidLeaf& leaf, const Line& line, double start, double stop,
+                          Crossings& out) {
   const double middle = std::clamp(nearest_to_origin(line), start, stop);
   const double unit = std::max({stop - middle, middle - start, std::numeric_limits<double>::min()});
   const Polynomial p = along(leaf, line.origin + line.direction * middle, line.direction * unit);
   const double low = (start - middle) / unit;
-  Crossings result;
-  result.inside_at_start = p(low) < 0.0;
+  out.inside_at_start = p(low) < 0.0;
   const Roots roots = roots_between(p, low, (stop - middle) / unit);
-  for (int i = 0; i < roots.count; ++i)
-    result.t[std::size_t(result.count++)] = middle + unit * roots.x[std::size_t(i)];
-  return result;
+  for (int i = 0; i < roots.count; ++i) out.add(middle + unit * roots.x[std::size_t(i)]);
 }
 
-Crossings torus_crossings(const SolidLeaf& torus, const Line& line, double start, double stop) {
+void torus_crossings(const SolidLeaf& torus, const Line& line, double start, double stop,
+                     Crossings& out) {
   // A little wider than the torus, so that the line is surely outside at both ends.
   constexpr double wider = 1.001;
   Stretch around = sphere_stretch(line, (1.0 + torus.minor_radius) * wider);
   const double half_height = torus.minor_radius * wider;
   around.cut(line.origin.y, line.direction.y, -half_height, half_height);
   const double from = std::max(start, around.first), to = std::min(stop, around.last);
-  if (!(from < to)) return {};
-  return polynomial_crossings(torus, line, from, to);
+  if (from < to) polynomial_crossings(torus, line, from, to, out);
 }
 
-LeafField polynomial_field(const std::vector<PolynomialTerm>& terms, const V3d& p) {
+V3d polynomial_outward(const std::vector<PolynomialTerm>& terms, const V3d& p) {
   std::array<std::array<double, max_polynomial_degree + 1>, 3> powers;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     powers[axis][0] = 1.0;
     for (std::size_t i = 1; i < powers[axis].size(); ++i)
       powers[axis][i] = powers[axis][i - 1] * p[int(axis)];
   }
-  LeafField f;
+  V3d gradient(0.0);
   for (const PolynomialTerm& term : terms) {
     const auto& [i, j, k] = term.powers;
     const double x = powers[0][i], y = powers[1][j], z = powers[2][k], c = term.coefficient;
-    f.value += c * x * y * z;
-    if (i > 0) f.gradient.x += c * i * powers[0][std::size_t(i - 1)] * y * z;
-    if (j > 0) f.gradient.y += c * j * x * powers[1][std::size_t(j - 1)] * z;
-    if (k > 0) f.gradient.z += c * k * x * y * powers[2][std::size_t(k - 1)];
+    if (i > 0) gradient.x += c * i * powers[0][std::size_t(i - 1)] * y * z;
+    if (j > 0) gradient.y += c * j * x * powers[1][std::size_t(j - 1)] * z;
+    if (k > 0) gradient.z += c * k * x * y * powers[2][std::size_t(k - 1)];
   }
-  return f;
+  return gradient;
 }
 
-LeafField cone_field(const SolidLeaf& cone, const V3d& p) {
+V3d cone_outward(const SolidLeaf& cone, const V3d& p) {
   const double slope = cone.cap_radius - cone.base_radius;
   const double across = std::hypot(p.x, p.z);
-  LeafField side{across - cone.base_radius - slope * p.y, V3d(0.0, -slope, 0.0)};
-  if (across > 0.0) {
-    side.gradient.x = p.x / across;
-    side.gradient.z = p.z / across;
-  }
-  LeafField nearest{-p.y, V3d(0.0, -1.0, 0.0)};
-  if (p.y - 1.0 > nearest.value) nearest = {p.y - 1.0, V3d(0.0, 1.0, 0.0)};
-  return side.value > nearest.value ? side : nearest;
+  const double beyond_side = across - cone.base_radius - slope * p.y;
+  if (beyond_side > std::max(-p.y, p.y - 1.0) || cone.open)
+    return across > 0.0 ? V3d(p.x / across, -slope, p.z / across) : V3d(0.0, -slope, 0.0);
+  return V3d(0.0, p.y - 1.0 > -p.y ? 1.0 : -1.0, 0.0);
 }
 
-LeafField box_field(const V3d& p) {
+V3d box_outward(const V3d& p) {
   int axis = 0;
   for (int i = 1; i < 3; ++i) {
     if (std::abs(p[i]) > std::abs(p[axis])) axis = i;
   }
-  LeafField f{std::abs(p[axis]) - 1.0, V3d(0.0)};
-  f.gradient[axis] = p[axis] < 0.0 ? -1.0 : 1.0;
-  return f;
+  V3d outward(0.0);
+  outward[axis] = p[axis] < 0.0 ? -1.0 : 1.0;
+  return outward;
 }
 
-LeafField torus_field(const SolidLeaf& torus, const V3d& p) {
+V3d torus_outward(const V3d& p) {
   const double across = std::hypot(p.x, p.z);
-  if (across == 0.0) return {1.0 - torus.minor_radius, V3d(0.0, 1.0, 0.0)};
-  const V3d from_ring(p.x * (1.0 - 1.0 / across), p.y, p.z * (1.0 - 1.0 / across));
-  const double distance = from_ring.length();
-  return {distance - torus.minor_radius, distance > 0.0 ? from_ring / distance : V3d(0, 1, 0)};
+  if (across == 0.0) return V3d(0.0, 1.0, 0.0);
+  return {p.x * (1.0 - 1.0 / across), p.y, p.z * (1.0 - 1.0 / across)};
 }
 
 }  // namespace
 
-Crossings crossings(const SolidLeaf& leaf, const Line& line, double start, double stop) {
+void Stretch::cut(double origin, double direction, double low, double high) {
+  if (direction == 0.0) {
+    if (origin < low || origin > high) last = -std::numeric_limits<double>::infinity();
+    return;
+  }
+  const double a = (low - origin) / direction, b = (high - origin) / direction;
+  first = std::max(first, std::min(a, b));
+  last = std::min(last, std::max(a, b));
+}
+
+void add_stretch(const Stretch& stretch, double start, double stop, Crossings& out) {
+  if (!(stretch.first < stretch.last)) return;
+  if (stretch.first <= start && start < stretch.last) out.inside_at_start = true;
+  for (const double t : {stretch.first, stretch.last}) {
+    if (t > start && t <= stop) out.add(t);
+  }
+}
+
+std::array<double, 4> control_values(const Cubic& c) {
+  return {c[0], c[0] + c[1] / 3.0, c[0] + (2.0 * c[1] + c[2]) / 3.0, c[0] + c[1] + c[2] + c[3]};
+}
+
+double value_at(const Cubic& c, double s) {
+  return c[0] + s * (c[1] + s * (c[2] + s * c[3]));
+}
+
+double slope_at(const Cubic& c, double s) {
+  return c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]);
+}
+
+ElementTree elements_of(const SolidLeaf& leaf) {
+  switch (leaf.shape) {
+    case SolidShape::prism:
+      return ElementTree(prism_boxes(leaf));
+    case SolidShape::lathe:
+    case SolidShape::sor:
+      return ElementTree(revolution_boxes(leaf));
+    case SolidShape::blob:
+      return ElementTree(blob_boxes(leaf));
+    case SolidShape::sweep:
+      return ElementTree(sweep_boxes(leaf));
+    default:
+      return {};
+  }
+}
+
+void find_crossings(const SolidLeaf& leaf, const ElementTree& elements, const Line& line,
+                    double start, double stop, Crossings& out) {
+  out.clear();
   switch (leaf.shape) {
     case SolidShape::box: {
       Stretch stretch;
       for (int i = 0; i < 3; ++i) stretch.cut(line.origin[i], line.direction[i], -1.0, 1.0);
-      return of_stretch(stretch, start, stop);
+      return add_stretch(stretch, start, stop, out);
     }
     case SolidShape::sphere:
-      return of_stretch(sphere_stretch(line, 1.0), start, stop);
+      return add_stretch(sphere_stretch(line, 1.0), start, stop, out);
     case SolidShape::cone:
-      return of_stretch(cone_stretch(leaf, line), start, stop);
+      return cone_crossings(leaf, line, start, stop, out);
     case SolidShape::torus:
-      return torus_crossings(leaf, line, start, stop);
+      return torus_crossings(leaf, line, start, stop, out);
     case SolidShape::polynomial:
-      return polynomial_crossings(leaf, line, start, stop);
+      return polynomial_crossings(leaf, line, start, stop, out);
+    case SolidShape::prism:
+      return prism_crossings(leaf, elements, line, start, stop, out);
+    case SolidShape::lathe:
+    case SolidShape::sor:
+      return revolution_crossings(leaf, elements, line, start, stop, out);
+    case SolidShape::superellipsoid:
+      return superellipsoid_crossings(leaf, line, start, stop, out);
+    case SolidShape::blob:
+      return blob_crossings(leaf, elements, line, start, stop, out);
+    case SolidShape::sweep:
+      return sweep_crossings(leaf, elements, line, start, stop, out);
   }
-  return {};
 }
 
-LeafField field(const SolidLeaf& leaf, const V3d& p) {
+V3d outward_at(const SolidLeaf& leaf, const ElementTree& elements, const Line& line,
+               const Crossing& crossing) {
+  const V3d p = line.origin + line.direction * crossing.t;
   switch (leaf.shape) {
     case SolidShape::box:
-      return box_field(p);
+      return box_outward(p);
     case SolidShape::sphere:
-      return {p.length() - 1.0, p.length() > 0.0 ? p.normalized() : V3d(0.0, 1.0, 0.0)};
+      return p;
     case SolidShape::cone:
-      return cone_field(leaf, p);
+      return cone_outward(leaf, p);
     case SolidShape::torus:
-      return torus_field(leaf, p);
+      return torus_outward(p);
     case SolidShape::polynomial:
-      return polynomial_field(leaf.terms, p);
+      return polynomial_outward(leaf.terms, p);
+    case SolidShape::prism:
+      return prism_outward(leaf, line, crossing);
+    case SolidShape::lathe:
+    case SolidShape::sor:
+      return revolution_outward(leaf, line, crossing);
+    case SolidShape::superellipsoid:
+      return superellipsoid_outward(leaf, p);
+    case SolidShape::blob:
+      return blob_outward(leaf, elements, line, crossing.t);
+    case SolidShape::sweep:
+      return sweep_outward(leaf, line, crossing);
   }
-  return {};
+  return V3d(0.0);
 }
 
 }  // namespace lumivec

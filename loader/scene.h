@@ -176,11 +176,18 @@ struct Sphere {
 };
 
 enum class SolidShape : std::uint8_t {
-  box,        // from -1 to 1 along each axis
-  sphere,     // of radius 1 around the origin
-  cone,       // around y from 0, where it has base_radius, to 1, where it has cap_radius; closed
-  torus,      // around y: a ring of radius 1, as thick as minor_radius, < 1
-  polynomial  // where the sum of the terms is below 0; may be infinite
+  box,         // from -1 to 1 along each axis
+  sphere,      // of radius 1 around the origin
+  cone,        // around y from 0, where it has base_radius, to 1, where it has cap_radius; closed
+  torus,       // around y: a ring of radius 1, as thick as minor_radius, < 1
+  polynomial,  // where the sum of the terms is below 0; may be infinite
+  prism,  // within the curve, whose u is x and v is z, for low ≤ y ≤ high; with conic the curve
+          // is that at y = 1 and grows in proportion to y
+  lathe,  // within the curve turned around y: u is the distance from y, v the height
+  sor,    // the same, but u is the distance's square and v is linear
+  superellipsoid,  // (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) < 1, by its exponents e and n
+  blob,            // where the sum of the components is above the threshold
+  sweep            // all spheres along the pieces
 };
 
 // coefficient · x^powers[0] · y^powers[1] · z^powers[2]
@@ -190,6 +197,33 @@ struct PolynomialTerm {
 };
 constexpr int max_polynomial_degree = 8;  // sum of the powers of one term
 
+// Coefficients of 1, s, s² and s³ for 0 ≤ s ≤ 1.
+using Cubic = std::array<double, 4>;
+
+// A stretch of a plane curve. Each begins exactly where one before it ends, and curves are closed,
+// but lathes and sors may begin and end on the axis, where u = 0. Insides are where an odd number
+// of curves is around.
+struct CurvePiece {
+  Cubic u{};
+  Cubic v{};
+  std::array<double, 2> end{};  // where the next begins, without what s = 1 would round off
+  bool hidden = false;          // bounds the inside but is not seen
+};
+
+// A density strength · (1 - d²)², d being the distance from a point or a stretch of a line; 0 where
+// d is above 1.
+struct BlobComponent {
+  M44d to_component;      // from the blob's space, in which the stretch is y from 0 to length
+  double length = 0.0;    // 0: a point
+  double strength = 1.0;  // may be negative
+};
+
+// Spheres whose centre and radius move along.
+struct SweepPiece {
+  std::array<Cubic, 3> center{};
+  Cubic radius{};
+};
+
 // A primitive that solids are combined from.
 struct SolidLeaf {
   SolidShape shape = SolidShape::sphere;
@@ -198,6 +232,15 @@ struct SolidLeaf {
   double cap_radius = 1.0;     // cone, ≥ 0
   double minor_radius = 0.25;  // torus, (0, 1)
   std::vector<PolynomialTerm> terms;  // polynomial
+  std::vector<CurvePiece> curve;      // prism, lathe, sor
+  double low = 0.0, high = 1.0;       // prism, low < high
+  bool conic = false;                 // prism
+  bool open = false;         // cone, prism: the flat ends bound the inside but are not seen
+  double east_west = 1.0;    // superellipsoid: e, > 0
+  double north_south = 1.0;  // superellipsoid: n, > 0
+  std::vector<BlobComponent> components;
+  double threshold = 0.5;  // blob, > 0
+  std::vector<SweepPiece> sweep;
   int part = 0;  // which of the solid's instances shows the primitive's share of the surface
 };
 

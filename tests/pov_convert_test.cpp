@@ -139,15 +139,27 @@ TEST(PovConvert, MirroredCutsLookOutward) {
   EXPECT_NEAR(volume(scene), 4.0, 1e-3);
 }
 
+// A wall whose ring of least radius is in the middle: as POV-Ray has it, what lies beyond that
+// radius, within the wall and not above it, is inside, and what closes it cannot be seen.
 TEST(PovConvert, AnOpenProfileIsInsideOfItsLine) {
-  // A cup's wall alone, of radius 1: what lies within it, up to its height, is inside.
-  const Scene scene = PovFile(
-                          "intersection { box { <-0.1, 0, -0.1>, <0.1, 2, 0.1> } "
-                          "lathe { linear_spline 2, <1, 0>, <1, 1> } }")
-                          .load();
-  ASSERT_FALSE(scene.meshes.empty());
-  for (const V3f& p : scene.meshes[0].positions) EXPECT_LT(p.y, 1.01f);
-  EXPECT_GT(area(scene.meshes[0]), 0.7);
+  const std::string wall = "lathe { linear_spline 3, <1, 0>, <0.5, 0.5>, <1, 1> }";
+  const lumivec::Line at_height{V3d(-5.0, 0.75, 0.0), V3d(1.0, 0.0, 0.0)};
+  const Scene alone = PovFile(wall).load();
+  const auto ends = passages(alone, at_height);
+  ASSERT_EQ(ends.size(), 2u);
+  EXPECT_NEAR(ends[0].point.x, -0.75, 1e-9);
+  EXPECT_NEAR(ends[1].point.x, 0.75, 1e-9);
+  const auto cut = [&](const char* box) {
+    return passages(
+        PovFile("intersection { box { " + std::string(box) + " } " + wall + " }").load(),
+        {V3d(0.0, 0.75, 5.0), V3d(0.0, 0.0, -1.0)});
+  };
+  // A column along the axis is where nothing is inside; one beside it ends on its own faces.
+  EXPECT_TRUE(cut("<-0.1, 0, -0.1>, <0.1, 2, 0.1>").empty());
+  const auto faces = cut("<-0.1, 0, 0.6>, <0.1, 2, 0.7>");
+  ASSERT_EQ(faces.size(), 2u);
+  EXPECT_NEAR(std::abs(faces[0].point.z), 0.6, 1e-9);
+  EXPECT_NEAR(std::abs(faces[1].point.z), 0.7, 1e-9);
 }
 
 TEST(PovConvert, LargeUnionsTakeLinearTime) {

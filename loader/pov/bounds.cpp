@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loader/pov/exact_shapes.h"
+
 namespace lumivec::pov {
 namespace {
 
@@ -23,15 +25,6 @@ V3d disc_reach(const V3d& normal) {
   return reach;
 }
 
-Box3d overlap(const Box3d& a, const Box3d& b) {
-  Box3d box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::max(a.min[i], b.min[i]);
-    box.max[i] = std::min(a.max[i], b.max[i]);
-  }
-  return box;
-}
-
 Box3d transformed(const Box3d& box, const M44d& m) {
   Box3d result;
   if (box.isEmpty()) return result;
@@ -47,16 +40,6 @@ template <class Points>
 Box3d of_points(const Points& points) {
   Box3d box;
   for (const V3d& point : points) box.extendBy(point);
-  return box;
-}
-
-// Of a profile turned around y.
-Box3d of_profile(const std::vector<std::array<double, 2>>& points) {
-  Box3d box;
-  for (const auto& [radius, height] : points) {
-    box.extendBy(V3d(-radius, height, -radius));
-    box.extendBy(V3d(radius, height, radius));
-  }
   return box;
 }
 
@@ -116,35 +99,16 @@ struct ShapeBounds {
   Box3d operator()(const std::shared_ptr<const HeightFieldShape>&) const {
     return {V3d(0.0), V3d(1.0)};
   }
-  Box3d operator()(const std::shared_ptr<const PrismShape>& p) const {
-    Box3d box;
-    const double scale = p->conic ? std::max(std::abs(p->low), std::abs(p->high)) : 1.0;
-    for (const auto& [x, z] : p->points) {
-      box.extendBy(V3d(x * scale, p->low, z * scale));
-      box.extendBy(V3d(x * scale, p->high, z * scale));
-    }
-    return box;
-  }
-  Box3d operator()(const std::shared_ptr<const LatheShape>& l) const {
-    return of_profile(l->points);
-  }
-  Box3d operator()(const std::shared_ptr<const SorShape>& s) const {
-    Box3d box = of_profile(s->points);
-    box.min.y = s->points[1][1];
-    box.max.y = s->points[s->points.size() - 2][1];
-    if (box.min.y > box.max.y) std::swap(box.min.y, box.max.y);
-    return box;
-  }
+  Box3d operator()(const std::shared_ptr<const PrismShape>& p) const { return pov::bounds_of(*p); }
+  Box3d operator()(const std::shared_ptr<const LatheShape>& l) const { return pov::bounds_of(*l); }
+  Box3d operator()(const std::shared_ptr<const SorShape>& s) const { return pov::bounds_of(*s); }
   Box3d operator()(const std::shared_ptr<const SphereSweepShape>& s) const {
-    Box3d box;
-    for (const auto& [center, radius] : s->spheres)
-      box.extendBy(around(center, V3d(std::abs(radius))));
-    return box;
+    return pov::bounds_of(*s);
   }
   Box3d operator()(const std::shared_ptr<const BicubicPatchShape>& p) const {
     return of_points(p->points);
   }
-  Box3d operator()(const std::shared_ptr<const TextShape>&) const { return {}; }
+  Box3d operator()(const std::shared_ptr<const TextShape>& t) const { return t->bounds; }
   Box3d operator()(const std::shared_ptr<const IsosurfaceShape>& s) const {
     if (s->sphere) return around(s->low, V3d(s->radius));
     Box3d box;
@@ -159,6 +123,15 @@ struct ShapeBounds {
 };
 
 }  // namespace
+
+Box3d overlap(const Box3d& a, const Box3d& b) {
+  Box3d box;
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = std::max(a.min[i], b.min[i]);
+    box.max[i] = std::min(a.max[i], b.max[i]);
+  }
+  return box;
+}
 
 Box3d bounds_of(const Object& object) {
   Box3d box = std::visit(ShapeBounds(), object.shape);

@@ -17,4 +17,7 @@ Imath::Box3d bounds_of(const Object& object);
 // What CombinedShape::bounds is to hold.
 Imath::Box3d bounds_of_parts(const CombinedShape& combined);
 
+// What lies in both; empty if nothing does.
+Imath::Box3d overlap(const Imath::Box3d& a, const Imath::Box3d& b);
+
 }  // namespace lumivec::pov

@@ -1,6 +1,11 @@
 #include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "loader/error.h"
 #include "loader/picture.h"
@@ -27,12 +32,64 @@ float height_of(float red, float green, float blue) {
   return (red * low_byte + green) / (low_byte + 1.0f);
 }
 
+using Rgb = std::array<std::uint8_t, 3>;
+
+// The palette of a PNG; empty: it has none.
+std::vector<Rgb> palette_of(std::span<const std::uint8_t> file) {
+  constexpr std::array<std::uint8_t, 8> signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  constexpr std::size_t around = 12;  // of a chunk: its length, its name, its checksum
+  if (file.size() < signature.size() ||
+      !std::equal(signature.begin(), signature.end(), file.begin()))
+    return {};
+  for (std::size_t at = signature.size(); at + around <= file.size();) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | file[at + i];
+    if (length > file.size() - at - around) return {};
+    const std::string_view name(reinterpret_cast<const char*>(file.data()) + at + 4, 4);
+    // Pictures in full color may have a palette too, as a hint.
+    constexpr std::size_t kind_at = 9;
+    constexpr std::uint8_t by_palette = 3;
+    if (name == "IHDR" && (length <= kind_at || file[at + 8 + kind_at] != by_palette)) return {};
+    if (name == "IDAT") return {};
+    if (name == "PLTE") {
+      std::vector<Rgb> colors;
+      for (std::size_t i = 0; i + 3 <= length; i += 3)
+        colors.push_back({file[at + 8 + i], file[at + 9 + i], file[at + 10 + i]});
+      return colors;
+    }
+    at += around + length;
+  }
+  return {};
+}
+
+// Pictures with a palette have heights by the colors' places in it. Of places of one color, that
+// next to the height before is taken.
+std::vector<float> palette_heights(const Image& image, const std::vector<Rgb>& palette) {
+  std::map<Rgb, std::vector<int>> places;
+  for (std::size_t i = 0; i < palette.size(); ++i)
+    places[palette[i]].push_back(static_cast<int>(i));
+  constexpr float full = 255.0f;
+  std::vector<float> heights;
+  int before = 0;
+  for (std::size_t i = 0; i + 3 < image.rgba8.size(); i += 4) {
+    const auto found = places.find({image.rgba8[i], image.rgba8[i + 1], image.rgba8[i + 2]});
+    if (found == places.end()) return {};
+    before = *std::min_element(found->second.begin(), found->second.end(), [&](int a, int b) {
+      return std::abs(a - before) < std::abs(b - before);
+    });
+    heights.push_back(static_cast<float>(before) / full);
+  }
+  return heights;
+}
+
 std::optional<Heights> read_heights(Parser& parser, const HeightFieldShape& field,
                                     const Place& place) {
   Image image;
+  std::vector<Rgb> palette;
   try {
-    image = decode_picture(parser.sources.read(field.image.file, field.image.named_in),
-                           [&](std::uint64_t bytes) { parser.claim(bytes); });
+    const auto file = parser.sources.read(field.image.file, field.image.named_in);
+    palette = palette_of(file);
+    image = decode_picture(file, [&](std::uint64_t bytes) { parser.claim(bytes); });
   } catch (const FileProblem& problem) {
     parser.mention(place, "a height field is left out: " + problem.problem);
     return std::nullopt;
@@ -51,6 +108,9 @@ std::optional<Heights> read_heights(Parser& parser, const HeightFieldShape& fiel
   constexpr std::uint64_t bytes_of_point =
       sizeof(float) + 2 * sizeof(V3d) + 2 * sizeof(std::array<std::uint32_t, 3>);
   parser.claim(count * bytes_of_point);
+  if (!palette.empty() && !image.rgba8.empty()) heights.values = palette_heights(image, palette);
+  if (heights.values.size() == count) return heights;
+  heights.values.clear();
   heights.values.reserve(count);
   constexpr float full = 255.0f;
   for (std::size_t i = 0; i < 4 * count; i += 4) {

@@ -223,11 +223,7 @@ void add_cut_surface(Conversion& conversion, const Object& object, const Around&
   Object in_scene = object;
   in_scene.transform = std::make_shared<const M44d>(around.transform);
   in_scene.extras = nullptr;
-  Imath::Box3d region = bounds_of(in_scene);
-  for (int i = 0; i < 3; ++i) {
-    region.min[i] = std::max(region.min[i], around.bounds.min[i]);
-    region.max[i] = std::min(region.max[i], around.bounds.max[i]);
-  }
+  const Imath::Box3d region = overlap(bounds_of(in_scene), around.bounds);
   const auto surface = solid_surface(object.shape, around.transform, around.clips, region,
                                      conversion.reach, conversion.focus);
   if (!surface) {
@@ -247,7 +243,14 @@ bool wants_solid(const Shape& shape, bool clipped) {
     return clipped;
   return std::holds_alternative<ConeShape>(shape) || std::holds_alternative<TorusShape>(shape) ||
          std::holds_alternative<std::shared_ptr<const QuadricShape>>(shape) ||
-         std::holds_alternative<std::shared_ptr<const PolyShape>>(shape);
+         std::holds_alternative<std::shared_ptr<const PolyShape>>(shape) ||
+         std::holds_alternative<SuperellipsoidShape>(shape) ||
+         std::holds_alternative<std::shared_ptr<const PrismShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const LatheShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const SorShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const BlobShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const SphereSweepShape>>(shape) ||
+         std::holds_alternative<std::shared_ptr<const TextShape>>(shape);
 }
 
 bool fits_tracing(const Solid& solid) {
@@ -261,16 +264,9 @@ bool add_solid(Conversion& conversion, const Object& object, const Around& aroun
   in_scene.transform = std::make_shared<const M44d>(around.transform);
   in_scene.extras = nullptr;
   in_scene.inverse = false;
-  Imath::Box3d region = bounds_of(in_scene);
-  const auto keep = [&](const Imath::Box3d& box) {
-    for (int i = 0; i < 3; ++i) {
-      region.min[i] = std::max(region.min[i], box.min[i]);
-      region.max[i] = std::min(region.max[i], box.max[i]);
-    }
-  };
-  keep(around.bounds);
+  Imath::Box3d region = overlap(bounds_of(in_scene), around.bounds);
   for (const auto& clip : around.clips) {
-    if (clip->inside()) keep(clip->bounds());
+    if (clip->inside()) region = overlap(region, clip->bounds());
   }
   std::vector<int> materials;  // by part
   SolidBuilder builder([&](const Object& leaf, const SolidAppearance& appearance) {
@@ -304,7 +300,13 @@ bool add_solid(Conversion& conversion, const Object& object, const Around& aroun
   std::size_t bytes = sizeof(Solid) + materials.size() * sizeof(Instance) +
                       solid.nodes.size() * sizeof(SolidNode) +
                       solid.leaves.size() * sizeof(SolidLeaf);
-  for (const SolidLeaf& leaf : solid.leaves) bytes += leaf.terms.size() * sizeof(PolynomialTerm);
+  constexpr std::size_t tree_bytes = 200;  // of each element, with what finds it along a ray
+  for (const SolidLeaf& leaf : solid.leaves) {
+    bytes += leaf.terms.size() * sizeof(PolynomialTerm) +
+             leaf.curve.size() * (sizeof(CurvePiece) + tree_bytes) +
+             leaf.components.size() * (sizeof(BlobComponent) + tree_bytes) +
+             leaf.sweep.size() * (sizeof(SweepPiece) + tree_bytes);
+  }
   conversion.parser.claim(bytes);
   for (std::size_t part = 0; part < materials.size(); ++part) {
     Instance instance;
@@ -331,10 +333,7 @@ void add_bounds(Parser& parser, const ObjectExtras& extras, const M44d& outside,
     around.clips.push_back(make_clip(parser, clip, outside, true));
   for (const auto& bound : extras.bounded_by) {
     const auto clip = make_clip(parser, bound, outside, true);
-    for (int i = 0; i < 3; ++i) {
-      around.bounds.min[i] = std::max(around.bounds.min[i], clip->bounds().min[i]);
-      around.bounds.max[i] = std::min(around.bounds.max[i], clip->bounds().max[i]);
-    }
+    around.bounds = overlap(around.bounds, clip->bounds());
     if (extras.clipped_by_bounds) around.clips.push_back(clip);
   }
 }

@@ -3,43 +3,10 @@
 namespace lumivec::pov {
 namespace {
 
-// Coefficients of 1, t, t², t³ for one coordinate.
-using Cubic = std::array<double, 4>;
-
-Cubic cubic_of(CurveKind kind, const Point2* p, std::size_t c) {
-  switch (kind) {
-    case CurveKind::linear:
-      return {p[0][c], p[1][c] - p[0][c], 0.0, 0.0};
-    case CurveKind::quadratic:  // through three points, from the second to the third
-      return {p[1][c], 0.5 * (p[2][c] - p[0][c]), 0.5 * (p[0][c] - 2.0 * p[1][c] + p[2][c]), 0.0};
-    case CurveKind::cubic:  // Catmull-Rom
-      return {p[1][c], 0.5 * (p[2][c] - p[0][c]),
-              p[0][c] - 2.5 * p[1][c] + 2.0 * p[2][c] - 0.5 * p[3][c],
-              0.5 * (p[3][c] - p[0][c]) + 1.5 * (p[1][c] - p[2][c])};
-    case CurveKind::bezier:
-      break;
-  }
-  return {p[0][c], 3.0 * (p[1][c] - p[0][c]), 3.0 * (p[0][c] - 2.0 * p[1][c] + p[2][c]),
-          p[3][c] - p[0][c] + 3.0 * (p[1][c] - p[2][c])};
-}
-
-struct Stretch {
-  Cubic x;
-  Cubic y;
-  Point2 at(double t) const {
-    const auto value = [&](const Cubic& k) { return k[0] + t * (k[1] + t * (k[2] + t * k[3])); };
-    return {value(x), value(y)};
-  }
-  Point2 tangent(double t) const {
-    const auto value = [&](const Cubic& k) { return k[1] + t * (2.0 * k[2] + 3.0 * t * k[3]); };
-    return {value(x), value(y)};
-  }
-};
-
-// Where the points of a stretch begin, and how many there are from one to the next.
+// Points that only steer, ahead of a curve and behind it.
 struct Layout {
-  std::size_t before;  // points that only steer, ahead of a curve
-  std::size_t after;   // likewise, behind it
+  std::size_t before;
+  std::size_t after;
 };
 
 Layout layout_of(CurveKind kind) {
@@ -53,53 +20,98 @@ Layout layout_of(CurveKind kind) {
   }
 }
 
-void add_stretch(Curve& curve, const Stretch& stretch, int steps) {
-  for (int i = curve.points.empty() ? 0 : 1; i <= steps; ++i) {
-    const double t = static_cast<double>(i) / steps;
-    curve.points.push_back(stretch.at(t));
-    curve.tangents.push_back(stretch.tangent(t));
+// points: the first that the stretch takes.
+CurvePiece piece_of(CurveKind kind, const Point2* points, std::size_t count, std::size_t last) {
+  CurvePiece piece;
+  std::array<double, 4> u{}, v{};
+  for (std::size_t i = 0; i < count; ++i) {
+    u[i] = points[i][0];
+    v[i] = points[i][1];
   }
+  piece.u = cubic_of(kind, u);
+  piece.v = cubic_of(kind, v);
+  piece.end = points[last];
+  return piece;
 }
 
-std::vector<Curve> bezier_curves(const std::vector<Point2>& points, int steps) {
-  std::vector<Curve> curves;
-  for (std::size_t i = 0; i + 3 < points.size(); i += 4) {
-    if (i == 0 || points[i] != points[i - 1]) curves.emplace_back();
-    const Point2* p = points.data() + i;
-    add_stretch(curves.back(),
-                {cubic_of(CurveKind::bezier, p, 0), cubic_of(CurveKind::bezier, p, 1)}, steps);
-  }
-  return curves;
+bool joins(const CurvePiece& piece, const CurvePiece& next) {
+  return piece.end == std::array{next.u[0], next.v[0]};
 }
 
 }  // namespace
 
+Cubic cubic_of(CurveKind kind, const std::array<double, 4>& p) {
+  switch (kind) {
+    case CurveKind::linear:
+      return {p[0], p[1] - p[0], 0.0, 0.0};
+    case CurveKind::quadratic:  // through three points, from the second to the third
+      return {p[1], 0.5 * (p[2] - p[0]), 0.5 * (p[0] - 2.0 * p[1] + p[2]), 0.0};
+    case CurveKind::cubic:  // Catmull-Rom
+      return {p[1], 0.5 * (p[2] - p[0]), p[0] - 2.5 * p[1] + 2.0 * p[2] - 0.5 * p[3],
+              0.5 * (p[3] - p[0]) + 1.5 * (p[1] - p[2])};
+    case CurveKind::bezier:
+      break;
+  }
+  return {p[0], 3.0 * (p[1] - p[0]), 3.0 * (p[0] - 2.0 * p[1] + p[2]),
+          p[3] - p[0] + 3.0 * (p[1] - p[2])};
+}
+
+std::array<double, 4> control_values(const Cubic& c) {
+  return {c[0], c[0] + c[1] / 3.0, c[0] + (2.0 * c[1] + c[2]) / 3.0, c[0] + c[1] + c[2] + c[3]};
+}
+
+std::vector<std::vector<CurvePiece>> curve_pieces(CurveKind kind, const std::vector<Point2>& points,
+                                                  bool split) {
+  std::vector<std::vector<CurvePiece>> curves;
+  if (kind == CurveKind::bezier) {
+    for (std::size_t i = 0; i + 3 < points.size(); i += 4) {
+      const CurvePiece piece = piece_of(kind, points.data() + i, 4, 3);
+      if (curves.empty() || !joins(curves.back().back(), piece)) curves.emplace_back();
+      curves.back().push_back(piece);
+    }
+    return curves;
+  }
+  const Layout layout = layout_of(kind);
+  std::size_t first = layout.before;
+  while (first + 1 + layout.after < points.size()) {
+    std::vector<CurvePiece> curve;
+    std::size_t i = first;
+    while (i + 1 + layout.after < points.size()) {
+      curve.push_back(piece_of(kind, points.data() + i - layout.before,
+                               layout.before + 2 + layout.after, layout.before + 1));
+      ++i;
+      if (split && points[i] == points[first]) break;
+    }
+    curves.push_back(std::move(curve));
+    if (!split) break;
+    first = i + 1 + layout.after + layout.before;
+  }
+  return curves;
+}
+
 std::vector<Curve> sample_curves(CurveKind kind, const std::vector<Point2>& points, bool split,
                                  int steps) {
+  if (kind == CurveKind::linear) steps = 1;
   std::vector<Curve> curves;
-  if (kind == CurveKind::bezier) {
-    curves = bezier_curves(points, steps);
-  } else {
-    const Layout layout = layout_of(kind);
-    if (kind == CurveKind::linear) steps = 1;
-    std::size_t first = layout.before;
-    while (first + 1 + layout.after < points.size()) {
-      Curve curve;
-      std::size_t i = first;
-      while (i + 1 + layout.after < points.size()) {
-        const Point2* p = points.data() + i - layout.before;
-        add_stretch(curve, {cubic_of(kind, p, 0), cubic_of(kind, p, 1)}, steps);
-        ++i;
-        if (split && points[i] == points[first]) break;
+  for (const auto& pieces : curve_pieces(kind, points, split)) {
+    Curve curve;
+    for (const CurvePiece& piece : pieces) {
+      const auto value = [](const Cubic& k, double t) {
+        return k[0] + t * (k[1] + t * (k[2] + t * k[3]));
+      };
+      const auto slope = [](const Cubic& k, double t) {
+        return k[1] + t * (2.0 * k[2] + 3.0 * t * k[3]);
+      };
+      for (int i = curve.points.empty() ? 0 : 1; i <= steps; ++i) {
+        const double t = static_cast<double>(i) / steps;
+        curve.points.push_back(i == steps ? piece.end
+                                          : Point2{value(piece.u, t), value(piece.v, t)});
+        curve.tangents.push_back({slope(piece.u, t), slope(piece.v, t)});
       }
-      curves.push_back(std::move(curve));
-      if (!split) break;
-      first = i + 1 + layout.after + layout.before;
     }
-  }
-  for (Curve& curve : curves) {
     curve.closed = curve.points.size() > 1 && curve.points.front() == curve.points.back();
     if (kind == CurveKind::linear) curve.tangents.clear();
+    curves.push_back(std::move(curve));
   }
   return curves;
 }

@@ -1,11 +1,15 @@
 #include "loader/pov/exact_solids.h"
 
+#include <ImathBoxAlgo.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "loader/pov/bounds.h"
+#include "loader/pov/curves.h"
+#include "loader/pov/exact_shapes.h"
 #include "loader/transforms.h"
 
 namespace lumivec::pov {
@@ -17,15 +21,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Box3d everywhere() {
   return {V3d(-infinity), V3d(infinity)};
-}
-
-Box3d overlap(const Box3d& a, const Box3d& b) {
-  Box3d box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::max(a.min[i], b.min[i]);
-    box.max[i] = std::min(a.max[i], b.max[i]);
-  }
-  return box;
 }
 
 // Bounds of infinite objects end a little before this.
@@ -50,19 +45,6 @@ M44d frame(const V3d& x, const V3d& y, const V3d& z, const V3d& origin) {
 
 M44d scaled(const V3d& scale, const V3d& center) {
   return frame(V3d(scale.x, 0, 0), V3d(0, scale.y, 0), V3d(0, 0, scale.z), center);
-}
-
-// From a unit cone's axis to the cone's.
-M44d cone_frame(const ConeShape& cone) {
-  const V3d axis = cone.cap - cone.base;
-  int least = 0;
-  for (int i = 1; i < 3; ++i) {
-    if (std::abs(axis[i]) < std::abs(axis[least])) least = i;
-  }
-  V3d other(0.0);
-  other[least] = 1.0;
-  const V3d x = axis.cross(other).normalized();
-  return frame(x, axis, x.cross(axis).normalized(), cone.base);
 }
 
 // The form of a primitive; the transform to the shape's own space. False: it has none.
@@ -93,7 +75,8 @@ struct LeafOf {
     leaf.shape = SolidShape::cone;
     leaf.base_radius = c.base_radius;
     leaf.cap_radius = c.cap_radius;
-    leaf.to_solid = cone_frame(c);
+    leaf.open = c.open;
+    leaf.to_solid = upright_to(c.base, c.cap - c.base, 1.0);
     return true;
   }
   bool operator()(const TorusShape& t) const {
@@ -129,9 +112,28 @@ struct LeafOf {
     }
     return !leaf.terms.empty();
   }
+  bool operator()(const SuperellipsoidShape& s) const { return take(exact_superellipsoid(s)); }
+  bool operator()(const std::shared_ptr<const PrismShape>& s) const {
+    return take(exact_prism(*s));
+  }
+  bool operator()(const std::shared_ptr<const LatheShape>& s) const {
+    return take(exact_lathe(*s));
+  }
+  bool operator()(const std::shared_ptr<const SorShape>& s) const { return take(exact_sor(*s)); }
+  bool operator()(const std::shared_ptr<const BlobShape>& s) const { return take(exact_blob(*s)); }
+  bool operator()(const std::shared_ptr<const SphereSweepShape>& s) const {
+    return take(exact_sweep(*s));
+  }
   template <class Other>
   bool operator()(const Other&) const {
     return false;
+  }
+
+  bool take(std::optional<SolidLeaf> found) const {
+    if (!found) return false;
+    found->part = leaf.part;
+    leaf = std::move(*found);
+    return true;
   }
 
   void add(int x, int y, int z, double coefficient) const {
@@ -175,31 +177,40 @@ bool SolidBuilder::add_leaf(const Object& object, const M44d& to_scene, int part
   return true;
 }
 
-// The endless cone, of which only the surface between the ends is there.
-bool SolidBuilder::add_open_cone(const Object& object, const ConeShape& cone, const M44d& to_scene,
-                                 int part, bool complement) {
-  if (!add_leaf(object, to_scene, part, -1, complement)) return false;
-  SolidLeaf& side = solid_.leaves.back();
-  const double slope = cone.cap_radius - cone.base_radius;
-  side.shape = SolidShape::polynomial;
-  const LeafOf terms{side};
-  terms.add(2, 0, 0, 1.0);
-  terms.add(0, 0, 2, 1.0);
-  terms.add(0, 2, 0, -slope * slope);
-  terms.add(0, 1, 0, -2.0 * slope * cone.base_radius);
-  terms.add(0, 0, 0, -cone.base_radius * cone.base_radius);
-  solid_.nodes.back().bounds = everywhere();
-  SolidLeaf between;
-  between.shape = SolidShape::polynomial;
-  between.to_solid = side.to_solid;
-  between.part = part;
-  between.terms = {{{0, 2, 0}, 1.0}, {{0, 1, 0}, -1.0}};
+// Each glyph is a prism whose sweep, along y, becomes z.
+void SolidBuilder::add_text(const TextShape& text, const M44d& to_scene, int part, int parent,
+                            bool complement) {
   SolidNode node;
-  node.leaf = static_cast<int>(solid_.leaves.size());
+  node.operation = SolidOperation::unite;
+  node.complement = complement;
+  node.parent = parent;
   node.bounds = everywhere();
-  solid_.leaves.push_back(std::move(between));
-  add_node(node);
-  return true;
+  const int at = add_node(node);
+  for (const TextShape::Glyph& glyph : text.glyphs) {
+    SolidLeaf leaf;
+    leaf.shape = SolidShape::prism;
+    leaf.curve = glyph.outline;
+    leaf.low = std::min(0.0, text.thickness);
+    leaf.high = std::max(0.0, text.thickness);
+    leaf.part = part;
+    leaf.to_solid = frame(V3d(1, 0, 0), V3d(0, 0, 1), V3d(0, 1, 0), glyph.pen) * to_scene;
+    if (leaf.low == leaf.high || !is_invertible(leaf.to_solid)) continue;
+    SolidNode of_glyph;
+    of_glyph.parent = at;
+    of_glyph.leaf = static_cast<int>(solid_.leaves.size());
+    Box3d box;
+    for (const CurvePiece& piece : leaf.curve) {
+      const auto u = control_values(piece.u), v = control_values(piece.v);
+      for (std::size_t i = 0; i < 4; ++i) {
+        box.extendBy(V3d(u[i], leaf.low, v[i]));
+        box.extendBy(V3d(u[i], leaf.high, v[i]));
+      }
+    }
+    of_glyph.bounds = Imath::transform(box, leaf.to_solid);
+    solid_.leaves.push_back(std::move(leaf));
+    add_node(of_glyph);
+  }
+  solid_.nodes[static_cast<std::size_t>(at)].end = static_cast<int>(solid_.nodes.size());
 }
 
 bool SolidBuilder::add_object(const Object& object, const M44d& around,
@@ -220,13 +231,13 @@ bool SolidBuilder::add_shape(const Object& object, const M44d& to_scene,
                              const SolidAppearance& appearance, int parent, bool complement) {
   const auto* combined = std::get_if<std::shared_ptr<const CombinedShape>>(&object.shape);
   if (!combined) {
-    const auto* cone = std::get_if<ConeShape>(&object.shape);
-    const bool open = cone && cone->open;
-    if (open && parent >= 0) return false;
     const int part = part_of_(object, appearance);
     if (part < 0) return false;
-    return open ? add_open_cone(object, *cone, to_scene, part, complement)
-                : add_leaf(object, to_scene, part, parent, complement);
+    if (const auto* text = std::get_if<std::shared_ptr<const TextShape>>(&object.shape)) {
+      add_text(**text, to_scene, part, parent, complement);
+      return true;
+    }
+    return add_leaf(object, to_scene, part, parent, complement);
   }
   const CombinedShape& shape = **combined;
   const bool united =
@@ -262,9 +273,6 @@ bool SolidBuilder::add_surface(const Object& object, const M44d& to_scene,
 
 bool SolidBuilder::add_clip(const Clip& clip) {
   const Object& object = clip.object();
-  // As a root an open cone would stand for two.
-  const auto* cone = std::get_if<ConeShape>(&object.shape);
-  if (cone && cone->open) return false;
   const PartOf part_of = std::exchange(part_of_, [](const auto&, const auto&) { return 0; });
   const bool added = add_object(object, clip.around(), {}, -1, !clip.inside());
   part_of_ = part_of;

@@ -1,4 +1,5 @@
 #include "loader/pov/expression.h"
+#include "loader/pov/fonts.h"
 #include "loader/pov/functions.h"
 #include "loader/pov/object_modifiers.h"
 #include "loader/pov/patterns.h"
@@ -88,23 +89,28 @@ Shape parse_height_field(Parser& parser) {
 }
 
 Shape parse_text(Parser& parser) {
-  auto text = std::make_shared<TextShape>();
-  text->named_in = parser.source();
-  if (parser.accept(K::ttf_)) {
-    text->font = parse_file_name(parser, "a font");
-  } else if (parser.accept(K::internal_)) {
-    text->font = "internal " + std::to_string(parse_int(parser, "a font's number"));
+  FontName font;
+  font.named_in = parser.source();
+  if (parser.accept(K::internal_)) {
+    parse_int(parser, "a font's number");
   } else {
-    text->font = parse_file_name(parser, "a font");
+    parser.accept(K::ttf_);
+    parser.peek();
+    font.place = parser.place();
+    font.file = parse_file_name(parser, "a font");
   }
   skip_comma(parser);
-  text->text = parse_string(parser, "a text");
+  const std::string text = parse_string(parser, "a text");
   skip_comma(parser);
-  text->thickness = parse_float(parser, "a text's thickness");
+  const double thickness = parse_float(parser, "a text's thickness");
   skip_comma(parser);
   const Number offset = parse_number(parser);
-  text->offset = offset.size == 1 ? V3d(offset.n[0], 0.0, 0.0) : to_vector(offset);
-  return std::shared_ptr<const TextShape>(std::move(text));
+  const V3d apart = offset.size == 1 ? V3d(offset.n[0], 0.0, 0.0) : to_vector(offset);
+  if (font.file.empty()) {
+    parser.mention(parser.place(), "a text in a font inside POV-Ray is left out: name a file");
+    return std::make_shared<const TextShape>();
+  }
+  return std::make_shared<const TextShape>(text_of(parser, font, text, thickness, apart));
 }
 
 Shape parse_isosurface(Parser& parser) {

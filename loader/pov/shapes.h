@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "loader/pov/appearance.h"
+#include "loader/scene.h"
 
 namespace lumivec::pov {
 
@@ -136,11 +137,13 @@ struct BicubicPatchShape {
   std::array<V3d, 16> points;
 };
 struct TextShape {
-  std::string font;
-  std::uint32_t named_in = 0;
-  std::string text;
+  struct Glyph {
+    V3d pen{0.0};  // its origin
+    std::vector<CurvePiece> outline;
+  };
+  std::vector<Glyph> glyphs;
   double thickness = 1.0;
-  V3d offset{0.0};
+  Imath::Box3d bounds;
 };
 struct IsosurfaceShape {
   std::shared_ptr<const Function> function;

@@ -137,15 +137,6 @@ Box3d widened(Box3d box) {
   return box;
 }
 
-Box3d overlap(const Box3d& a, const Box3d& b) {
-  Box3d box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::max(a.min[i], b.min[i]);
-    box.max[i] = std::min(a.max[i], b.max[i]);
-  }
-  return box;
-}
-
 std::optional<Mesh> whole_surface(const Shape& shape, const M44d& to_scene, const Box3d& region,
                                   double reach, const V3d& focus) {
   if (const auto* sphere = std::get_if<SphereShape>(&shape)) return sphere_mesh(*sphere);

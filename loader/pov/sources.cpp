@@ -8,9 +8,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where packages install the standard includes.
+// Where packages install the standard includes, and the fonts that links there lead to.
 constexpr const char* installed_includes[] = {"/usr/share/povray-3.7/include",
-                                              "/usr/local/share/povray-3.7/include"};
+                                              "/usr/local/share/povray-3.7/include",
+                                              "/usr/share/fonts/truetype/povray"};
 
 fs::path real_path(const fs::path& path) {
   std::error_code error;
