@@ -4,8 +4,18 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace lumivec {
+
+// With a space for each control character: what a file says of itself may hold line breaks.
+inline std::string one_line(std::string text) {
+  for (char& c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f) c = ' ';
+  }
+  return text;
+}
 
 // what() reads "FILE: WHERE: PROBLEM; REMEDY", without the parts that are empty.
 class SceneError : public std::runtime_error {
@@ -27,7 +37,7 @@ class SceneError : public std::runtime_error {
     if (!where.empty()) line += ": " + where;
     line += ": " + problem;
     if (!remedy.empty()) line += "; " + remedy;
-    return line;
+    return one_line(std::move(line));
   }
 
   std::string file_;

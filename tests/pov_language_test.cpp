@@ -43,6 +43,17 @@ TEST(PovLanguage, ReadingAFileIntoItsOwnNameIsHarmless) {
   EXPECT_EQ(file.load().instances.at(0).object_to_world[0][0], 3.0);
 }
 
+// Whatever the scene's own texts hold.
+TEST(PovLanguage, MessagesAreOneLine) {
+  PovFile named("#include \"shapes.inc\n#include \"");
+  EXPECT_NE(named.error().find("shapes.inc #include"), std::string::npos);
+  PovFile said("#error \"first\nsecond\"");
+  EXPECT_NE(said.error().find("first second"), std::string::npos);
+  PovFile warned("#warning \"third\nfourth\"");
+  warned.load();
+  EXPECT_TRUE(warned.warns("third fourth"));
+}
+
 TEST(PovLanguage, AnArrayThatChangesWhileItIsUsedIsAnError) {
   const std::string array = "#declare A = array[8] { 0, 1, 2, 3, 4, 5, 6, 7 }\n";
   expect_error(array + "sphere { 0, A[ #declare A = 3; 5 ] }", "array changes");

@@ -57,7 +57,7 @@ void Context::warn(std::string_view where, std::string_view message) {
     ++warnings_left_out_;
     return;
   }
-  report.warnings.push_back({std::string(where), std::string(message)});
+  report.warnings.push_back({one_line(std::string(where)), one_line(std::string(message))});
 }
 
 void Context::finish_warnings() {

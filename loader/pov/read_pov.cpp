@@ -17,7 +17,8 @@ void finish_mentions(Parser& parser, LoadReport& report) {
     const std::uint32_t count = parser.mentioned.find(mention.what)->second;
     std::string text = mention.what;
     if (count > 1) text += " (here and in " + std::to_string(count - 1) + " more places)";
-    report.warnings.push_back({parser.place_text(mention.place), std::move(text)});
+    report.warnings.push_back(
+        {one_line(parser.place_text(mention.place)), one_line(std::move(text))});
   }
 }
 
