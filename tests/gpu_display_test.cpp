@@ -17,6 +17,7 @@
 #include "viewer/exposure.h"
 #include "viewer/window/false_color.h"
 #include "viewer/window/gl_window.h"
+#include "viewer/window/picture_canvas.h"
 #include "virtual_display.h"
 
 namespace lumivec {
@@ -165,6 +166,54 @@ TEST_F(GpuDisplayTest, KeepsPixelsWhereTheyAre) {
       EXPECT_EQ(shown.pixels[std::size_t(y * shown.width + x)], from) << x << ", " << y;
     }
   }
+}
+
+// The canvas shows what the display would, and computes it again for changes alone.
+TEST_F(GpuDisplayTest, KeepsWhatIsShown) {
+  const Picture picture = values();
+  GpuDisplay display({});
+  DisplayLook look;
+  const Picture direct = drawn(display, picture, look, GL_RGBA8);
+  const Viewport where = {5, 3, picture.width, picture.height};
+  const Viewport whole = {0, 0, picture.width, picture.height};
+  const GlCanvas window(80, 60, GL_RGBA8);
+  window.bind();
+  PictureCanvas canvas;
+  const auto shown = [&](const Viewport& place) {
+    glViewport(0, 0, 80, 60);
+    glClearColor(1.0f, 0.0f, 1.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    canvas.draw(display, where, place, look, Color(0.0f));
+    return read_back(where);
+  };
+  EXPECT_EQ(shown(whole).pixels, direct.pixels);
+  EXPECT_EQ(shown(whole).pixels, direct.pixels);
+  EXPECT_EQ(canvas.computed(), 1u);
+  display.upload(0, picture.pixels.data(), picture.width, picture.height);
+  shown(whole);
+  EXPECT_EQ(canvas.computed(), 2u);
+  look.exposure = 1.0;
+  EXPECT_NE(shown(whole).pixels, direct.pixels);
+  EXPECT_EQ(canvas.computed(), 3u);
+  // Moved to the right: background, then the picture from its left edge on.
+  look.exposure = 0.0;
+  const Picture moved = shown({20, 0, picture.width, picture.height});
+  for (int y = 0; y < picture.height; ++y) {
+    const auto row = std::size_t(y * picture.width);
+    EXPECT_EQ(moved.pixels[row + 19], Color(0.0f));
+    EXPECT_EQ(moved.pixels[row + 20], direct.pixels[row]);
+  }
+  EXPECT_EQ(canvas.computed(), 4u);
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+// What a camera of the same vertical angle sees stays where it is while a window's shape changes.
+TEST(PlaceInRoom, KeepsTheScaleOfAnotherShape) {
+  EXPECT_EQ(place_in_room(640, 480, 640, 480, 1.0), (Viewport{0, 0, 640, 480}));
+  EXPECT_EQ(place_in_room(213, 160, 640, 480, 4.0), (Viewport{0, 0, 640, 480}));
+  EXPECT_EQ(place_in_room(640, 480, 800, 480, 4.0), (Viewport{80, 0, 640, 480}));
+  EXPECT_EQ(place_in_room(640, 480, 400, 480, 4.0), (Viewport{-120, 0, 640, 480}));
+  EXPECT_EQ(place_in_room(640, 480, 640, 960, 4.0), (Viewport{-320, 0, 1280, 960}));
 }
 
 TEST_F(GpuDisplayTest, WipesBetweenTwoPictures) {

@@ -79,6 +79,8 @@ class GlCanvas {
   GlCanvas(const GlCanvas&) = delete;
   GlCanvas& operator=(const GlCanvas&) = delete;
   void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, name_); }
+  // Copies take it from here.
+  void read() const { glBindFramebuffer(GL_READ_FRAMEBUFFER, name_); }
 
  private:
   GlTexture texture_{GL_TEXTURE_2D};

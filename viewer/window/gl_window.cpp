@@ -3,7 +3,11 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <array>
+
 #include "viewer/errors.h"
+#include "viewer/window/gl_objects.h"
 
 namespace lumivec {
 namespace {
@@ -17,6 +21,16 @@ std::string reason() {
 constexpr const char* remedy = "; without a window, write: lumivec render SCENE -o OUT.png";
 
 }  // namespace
+
+bool draws_in_software() {
+  const GLubyte* name = glGetString(GL_RENDERER);
+  const std::string renderer = name ? reinterpret_cast<const char*>(name) : "";
+  constexpr std::array<const char*, 4> known = {"llvmpipe", "softpipe", "SwiftShader",
+                                                "GDI Generic"};
+  return std::any_of(known.begin(), known.end(), [&](const char* software) {
+    return renderer.find(software) != std::string::npos;
+  });
+}
 
 GlWindow::GlWindow(int width, int height, const std::string& title, bool visible) {
   glfwInitHint(GLFW_JOYSTICK_HAT_BUTTONS, GLFW_FALSE);

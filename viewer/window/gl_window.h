@@ -7,6 +7,9 @@ struct GLFWwindow;
 
 namespace lumivec {
 
+// Whether the driver draws with the processor, whose time the light then lacks. Needs a context.
+bool draws_in_software();
+
 class GlWindow {
  public:
   // visible: false keeps it off the screen, for tests. Throws CommandError that names `lumivec

@@ -172,11 +172,13 @@ void GpuDisplay::set_transform(const DisplayOptions& options) {
   glUniform1f(program.place("most"), most_displayed);
   shader->add_tables(description);
   shader_ = std::move(shader);
+  ++changes_;
   names_ = {display_names(config), view_names(config, found.display), look_names(config), found};
 }
 
 void GpuDisplay::upload(int which, const Color* pixels, int width, int height) {
   Uploaded& picture = pictures_.at(std::size_t(which));
+  ++changes_;
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, picture.texture.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

@@ -29,11 +29,13 @@ struct DisplayLook {
   Channel channel = Channel::color;
   double exposure = 0.0;  // stops
   float wipe = 0.0f;      // left of this share of the width the second picture is shown
+  bool operator==(const DisplayLook&) const = default;
 };
 
 // Part of what is drawn on, pixels from the lower left corner as OpenGL counts.
 struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const Viewport&) const = default;
 };
 
 // What a configuration offers beside what is chosen.
@@ -55,6 +57,13 @@ class GpuDisplay {
   // pixels: width × height, row 0 at the top; which: 0 the picture, 1 the second one.
   void upload(int which, const Color* pixels, int width, int height);
 
+  // Of the first picture; 0 before there is one.
+  int picture_width() const { return pictures_[0].width; }
+  int picture_height() const { return pictures_[0].height; }
+
+  // Counts what draw() shows otherwise from then on.
+  std::uint64_t changes() const { return changes_; }
+
   // Stretched over the viewport, pixel by pixel without any smoothing. Nothing before the first
   // upload.
   void draw(const Viewport& viewport, const DisplayLook& look) const;
@@ -70,6 +79,7 @@ class GpuDisplay {
   std::unique_ptr<Shader> shader_;
   GlVertexArray vertices_;
   std::array<Uploaded, 2> pictures_;
+  std::uint64_t changes_ = 0;
 };
 
 // What is drawn there now, row 0 at the top; display-encoded.

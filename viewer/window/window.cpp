@@ -72,7 +72,9 @@ Window::Window(const WindowOptions& options)
   GLFWwindow* window = gl_.handle();
   glfwSetWindowSizeLimits(window, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwSwapInterval(1);
+  constexpr double software_rate = 30.0;
   display_rate_ = fastest_display();
+  if (draws_in_software()) display_rate_ = std::min(display_rate_, software_rate);
 
   DisplayOptions display = options.display;
   try {

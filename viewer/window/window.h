@@ -18,6 +18,7 @@
 #include "viewer/window/key_table.h"
 #include "viewer/window/navigator.h"
 #include "viewer/window/panels.h"
+#include "viewer/window/picture_canvas.h"
 #include "viewer/window/shown_settings.h"
 #include "viewer/window/thread_time.h"
 #include "viewer/window/window_app.h"
@@ -134,6 +135,7 @@ class Window {
   std::filesystem::path settings_file_;
   GlWindow gl_;
   std::unique_ptr<GpuDisplay> display_;
+  PictureCanvas canvas_;
   EngineThread engine_;
   BackgroundRender still_, reference_render_;
   std::unique_ptr<ScriptPlayer> script_;

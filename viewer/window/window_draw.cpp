@@ -63,7 +63,12 @@ void Window::draw_picture() {
   look.wipe = light && !uploaded_.errors && state_.wipe && !picture.compared.empty()
                   ? state_.wipe_place
                   : 0.0f;
-  display_->draw(viewport_, look);
+  // The frames until a window's new shape is followed show the old picture, not a stretched one.
+  constexpr int rounding = 4;  // pixels of the picture that its sides may be rounded by
+  const Viewport place =
+      place_in_room(display_->picture_width(), display_->picture_height(), viewport_.width,
+                    viewport_.height, double(rounding * std::max(figures_.pixel_size, 1)));
+  canvas_.draw(*display_, viewport_, place, look, background);
 }
 
 void Window::after_picture() {
