@@ -33,6 +33,8 @@ constexpr int frames_to_rest = 8;
 constexpr double longer_at_rest = 3.0;
 // Samples taken before cached light has become better count like so many at most.
 constexpr float most_outdated_samples = 4.0f;
+// When cached light is known to a finer error: what is dropped is noise that comes back.
+constexpr float most_samples_of_coarser_records = 12.0f;
 // Cached light is made for what the eye sees in so many frames if it goes on as it does.
 constexpr int frames_ahead = 8;
 // Changes of the light show for so long.
@@ -77,7 +79,7 @@ void WalkEngine::trace_all() {
 void WalkEngine::change_light(const std::function<void()>& change) {
   const unsigned generation = tracer_.generation();
   change();
-  if (tracer_.generation() != generation) shading_.doubt_cached(most_outdated_samples);
+  if (tracer_.generation() != generation) shading_.doubt_cached(most_samples_of_coarser_records);
 }
 
 // The eye goes on as it went from the last frame to this one.
