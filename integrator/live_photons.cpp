@@ -9,8 +9,7 @@
 namespace lumivec {
 namespace {
 
-// Light paths of a map of a view at rest.
-constexpr std::uint64_t map_paths = 1 << 16;
+constexpr std::uint64_t map_paths = LivePhotons::paths_of_map_at_rest;
 // Before the first picture, and while the scene changes.
 constexpr std::uint64_t hurried_map_paths = map_paths / 8;
 // The wide map is used whenever it has grown so many times over, up to a path for each pixel, as a
@@ -122,7 +121,10 @@ PhotonChange LivePhotons::gather(double seconds, PhotonDemand demand, tbb::task_
     ++narrow_maps_;
   }
   if (!growing_narrow_ || !trace_up_to(map_paths, *growing_narrow_)) return change;
-  build_beside(std::move(*growing_narrow_), narrow_maps_, statistics);
+  // Discs shrink with the paths of all maps, as those of a still.
+  const auto number =
+      static_cast<std::uint32_t>(narrow_maps_ * map_paths / std::max(pixels_, map_paths));
+  build_beside(std::move(*growing_narrow_), std::max(number, 1u), statistics);
   growing_narrow_.reset();
   return change;
 }

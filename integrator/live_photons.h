@@ -21,8 +21,8 @@ namespace lumivec {
 // What the picture does.
 enum class PhotonDemand : std::uint8_t {
   grow,    // it moves: as many photons as can be, the same ones for all frames
-  keep,    // it rests, and not all pixels have seen the present map yet
-  another  // it rests, and they have
+  keep,    // it rests, and has made too few samples with the present map
+  another  // it rests, and has made enough
 };
 
 enum class PhotonChange : std::uint8_t {
@@ -33,6 +33,9 @@ enum class PhotonChange : std::uint8_t {
 
 class LivePhotons {
  public:
+  // Of each map of a view at rest.
+  static constexpr std::uint64_t paths_of_map_at_rest = 1 << 16;
+
   // scene must outlive this and may change in place between stop() and restart(). bytes: the memory
   // of a map, about; it grows no further.
   LivePhotons(const TracedScene& scene, std::uint64_t bytes);

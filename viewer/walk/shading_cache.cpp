@@ -57,11 +57,14 @@ constexpr float most_noisiness_at_edges = 8.0f;
 // are taken at once: a single one would be worse than what the pixel's middle shows.
 constexpr float first_noisiness_at_edges = 16.0f;
 constexpr float first_samples_at_edges = 4.0f;
+// Samples that miss a light tell nothing of those that would meet it.
+constexpr float least_noisiness_by_light = 64.0f;
 // Of a pixel, in a frame of a view at rest.
 constexpr float most_samples_at_once = 8.0f;
 // Rows whose errors are diffused by themselves, so that several threads choose.
 constexpr int band_height = 64;
 
+constexpr auto emitted_term = static_cast<std::size_t>(Term::emitted);
 constexpr auto specular_term = static_cast<std::size_t>(Term::specular);
 
 // Whether light that comes straight from where it is made has changed by more than its noise
@@ -194,7 +197,7 @@ void ShadingCache::rest(const VisibleSurfaces& seen) {
     find_edges(seen);
     for_each_row(height_, [&](int y) {
       for (std::size_t i = at(0, y); i < at(0, y + 1); ++i)
-        doubt(i, edges_[i] != 0 ? most_carried_samples_at_edges : most_carried_samples);
+        doubt(i, edges_[i] != Edge::none ? most_carried_samples_at_edges : most_carried_samples);
     });
   }
   rested_ = true;
@@ -301,10 +304,32 @@ bool ShadingCache::is_edge(const VisibleSurfaces& seen, int x, int y) const {
          (y > 0 && differs_from(at(x, y - 1))) || (y + 1 < height_ && differs_from(at(x, y + 1)));
 }
 
+// Whether the outline of something that gives light may go through it, if only as a sliver that no
+// pixel's middle shows: so bright that slivers tell.
+bool ShadingCache::is_beside_light(const VisibleSurfaces& seen, int x, int y) const {
+  constexpr int reach = 2;
+  const std::int32_t object = seen.object[at(x, y)];
+  for (int v = std::max(0, y - reach); v <= std::min(height_ - 1, y + reach); ++v) {
+    for (int u = std::max(0, x - reach); u <= std::min(width_ - 1, x + reach); ++u) {
+      const std::size_t i = at(u, v);
+      const float* emitted = shades_.shade[i].lanes.data() + 3 * emitted_term;
+      if (seen.object[i] != object && emitted[0] + emitted[1] + emitted[2] > 0.0f) return true;
+    }
+  }
+  return false;
+}
+
 void ShadingCache::find_edges(const VisibleSurfaces& seen) {
   edges_.resize(seen.size());
   for_each_row(height_, [&](int y) {
-    for (int x = 0; x < width_; ++x) edges_[at(x, y)] = is_edge(seen, x, y) ? 1 : 0;
+    for (int x = 0; x < width_; ++x) {
+      Edge& edge = edges_[at(x, y)];
+      if (is_beside_light(seen, x, y)) {
+        edge = Edge::of_light;
+      } else {
+        edge = is_edge(seen, x, y) ? Edge::plain : Edge::none;
+      }
+    }
   });
 }
 
@@ -371,11 +396,12 @@ float ShadingCache::want(std::size_t pixel) const {
   const float samples = shades_.mirrored[pixel] == shows_nothing ? shades_.shade[pixel].samples()
                                                                  : shades_.specular_samples[pixel];
   float noisiness = noisiness_[block];
-  if (rested_ && edges_[pixel] != 0) {
+  if (rested_ && edges_[pixel] != Edge::none) {
     // Samples in proportion to the noise: their number's growth to its square.
     const float own = noise_scale_ * std::sqrt(shades_.noise[pixel]);
     noisiness = std::max(noisiness, own * std::min(own, most_noisiness_at_edges));
     if (is_untried_edge(pixel)) noisiness = std::max(noisiness, first_noisiness_at_edges);
+    if (edges_[pixel] == Edge::of_light) noisiness = std::max(noisiness, least_noisiness_by_light);
   }
   return noisiness * (1.0f + most_urgent * urgency_[block]) *
          (1.0f + static_cast<float>(shades_.age[pixel]) / age_unit) / (1.0f + samples);

@@ -100,7 +100,8 @@ class ShadingCache {
   };
   // Of the view that rests, or rested last, the pixels that edges go through: their samples, which
   // are spread over them, are of more than one surface.
-  std::vector<std::uint8_t> edges_;
+  enum class Edge : std::uint8_t { none, plain, of_light };
+  std::vector<Edge> edges_;
   bool rested_ = false, last_rested_ = false;  // this view has, the one before has
 
   // What choose() goes by, of a row.
@@ -115,12 +116,13 @@ class ShadingCache {
   void follow_mirror(const LiveTracer& tracer, const class Reprojection& reprojection, int x, int y,
                      const Visibility& visibility);
   bool is_edge(const VisibleSurfaces& seen, int x, int y) const;
+  bool is_beside_light(const VisibleSurfaces& seen, int x, int y) const;
   void find_edges(const VisibleSurfaces& seen);
   void doubt(std::size_t pixel, float most);
-  bool is_mixed(std::size_t pixel) const { return last_rested_ && edges_[pixel] != 0; }
+  bool is_mixed(std::size_t pixel) const { return last_rested_ && edges_[pixel] != Edge::none; }
   // Whether an edge goes through it that no sample of the resting view has shown yet.
   bool is_untried_edge(std::size_t pixel) const {
-    return rested_ && edges_[pixel] != 0 &&
+    return rested_ && edges_[pixel] != Edge::none &&
            shades_.shade[pixel].samples() <= most_carried_samples_at_edges;
   }
   void grow_older(int y);

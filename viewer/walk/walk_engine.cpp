@@ -22,6 +22,9 @@ constexpr double share_of_records_at_rest = 0.55;
 constexpr double share_of_refining = 0.1;
 // And photons this one, as long as there are too few, and at rest.
 constexpr double share_of_photons = 0.06;
+// At rest photons are traced as often as a still does, and their noise takes samples of its own.
+constexpr double share_of_photons_at_rest = 0.25;
+constexpr double share_of_records_beside_photons = 0.4;
 // The first picture may take so long, or a frame's time if that is more: without any record its
 // samples would be whole paths, which are noisy for long.
 constexpr double first_frame_seconds = 0.2;
@@ -94,7 +97,7 @@ void WalkEngine::expect_view(const Camera& camera) {
   tracer_.expect_view(&expected);
 }
 
-// Each of a resting view's samples of a pixel has photons of its own.
+// As a still has, a light path for each sample of a view at rest.
 void WalkEngine::gather_photons(double seconds) {
   if (changes_ && seconds_since_change_ < restless_seconds) return;
   PhotonDemand demand = PhotonDemand::grow;
@@ -102,7 +105,7 @@ void WalkEngine::gather_photons(double seconds) {
     demand = samples_at_rest_ >= next_map_ ? PhotonDemand::another : PhotonDemand::keep;
   change_light([&] {
     if (tracer_.gather_photons(seconds, demand))
-      next_map_ = samples_at_rest_ + std::size_t(width_) * std::size_t(height_);
+      next_map_ = samples_at_rest_ + LivePhotons::paths_of_map_at_rest;
   });
 }
 
@@ -175,11 +178,16 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   if (resting_ >= frames_to_rest) frame_time *= longer_at_rest;
   if (frame_ == 0) frame_time = std::max(frame_time, first_frame_seconds);
   if (mode_.reuse != Reuse::nothing) {
-    gather_photons(share_of_photons * frame_time);
+    const bool rests = resting_ >= frames_to_rest;
+    gather_photons((rests ? share_of_photons_at_rest : share_of_photons) * frame_time);
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
     const double least =
         frame_ == 0 ? share_of_records * first_frame_seconds : least_share_of_records * frame_time;
-    const double share = resting_ >= frames_to_rest ? share_of_records_at_rest : share_of_records;
+    double share = share_of_records;
+    if (rests) {
+      share = tracer_.photon_map().entries > 0 ? share_of_records_beside_photons
+                                               : share_of_records_at_rest;
+    }
     change_light([&] { improve(std::max(least, share * left)); });
     frame.seconds_records = seconds_since(start) - frame.seconds_view;
     trace_within(frame_time - seconds_since(start) - fixed_seconds_);
