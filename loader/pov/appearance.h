@@ -40,8 +40,8 @@ struct PatternStep {
   double lambda = 2.0;
   K warp =
       K::repeat_;  // repeat, black_hole, turbulence, cylindrical, spherical, toroidal, planar, cube
-  std::vector<V3d> vectors;  // of the warp
-  std::vector<double> numbers;
+  std::vector<V3d> vectors;                // of the warp, in the order of the scene
+  std::vector<std::pair<K, V3d>> options;  // of the warp: offset, flip, strength and the like
 };
 
 struct MapPicture;

@@ -15,10 +15,108 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
 struct PatternPoint {
   V3d at{0.0};
   V3d spread{0.0};  // along each axis, for cells that meet in the surface
 };
+
+V3d option(const PatternStep& warp, K name, const V3d& usual) {
+  for (const auto& [key, value] : warp.options) {
+    if (key == name) return value;
+  }
+  return usual;
+}
+
+// Tiles along axes; what is done to them grows from one to the next.
+V3d repeated(const PatternStep& warp, V3d p) {
+  const V3d offset = option(warp, K::offset_, V3d(0.0)), flip = option(warp, K::flip_, V3d(0.0));
+  for (int i = 0; i < 3; ++i) {
+    const double width = std::abs(warp.vectors[0][i]);
+    if (!(width > 0.0)) continue;
+    const double tile = std::floor(p[i] / width);
+    p[i] -= tile * width;
+    if (std::fmod(tile, 2.0) != 0.0) {
+      for (int k = 0; k < 3; ++k) {
+        if (flip[k] != 0.0) p[k] = (k == i ? width : 0.0) - p[k];
+      }
+    }
+    p += offset * tile;
+  }
+  return p;
+}
+
+// Points inside a ball move away from its middle, or towards it.
+V3d black_hole(const PatternStep& warp, const V3d& p) {
+  const double radius = warp.vectors[1].x;
+  const V3d repeat = option(warp, K::repeat_, V3d(0.0));
+  V3d middle = warp.vectors[0];
+  for (int i = 0; i < 3; ++i) {
+    if (repeat[i] != 0.0) middle[i] += std::floor(p[i] / repeat[i]) * repeat[i];
+  }
+  const V3d off = p - middle;
+  const double distance = off.length();
+  if (!(distance < radius)) return p;
+  const double strength = option(warp, K::strength_, V3d(1.0)).x;
+  const double falloff = option(warp, K::falloff_, V3d(2.0)).x;
+  const double share = std::min(strength * std::pow(1.0 - distance / radius, falloff), 1.0);
+  const bool inverse = option(warp, K::inverse_, V3d(0.0)).x != 0.0;
+  return p + off * (inverse ? -share : share);
+}
+
+// A pattern in the plane of x and y, laid round: turns and heights in place of x and y, and what is
+// left in place of z. Turns around the y axis, from the x axis on.
+V3d laid_round(const PatternStep& warp, const V3d& p) {
+  const double stretch = option(warp, K::dist_exp_, V3d(0.0)).x;
+  const double across = std::hypot(p.x, p.z);
+  const double turns = fraction(std::atan2(p.z, p.x) / (2.0 * pi));
+  V3d at(turns, p.y, across);
+  if (warp.warp == K::spherical_) {
+    at.z = p.length();
+    at.y = 0.5 + std::atan2(p.y, across) / pi;
+  } else if (warp.warp == K::toroidal_) {
+    const double off = across - option(warp, K::major_radius_, V3d(1.0)).x;
+    at.z = std::hypot(off, p.y);
+    at.y = 0.5 + std::atan2(p.y, off) / (2.0 * pi);
+  }
+  if (stretch != 0.0) {
+    const double by = std::pow(at.z, stretch);
+    at.x *= by;
+    if (warp.warp != K::cylindrical_) at.y *= by;
+  }
+  return at;
+}
+
+// One of a plane's points for all.
+V3d pressed_flat(const PatternStep& warp, const V3d& p) {
+  const V3d distance = warp.vectors.size() > 1 ? warp.vectors[1] : V3d(0.0);
+  return {p.x, p.y, distance.x};
+}
+
+// From a pattern that faces the z axis to one that faces another.
+V3d facing(const V3d& axis, const V3d& p) {
+  if (std::abs(axis.x) > std::abs(axis.y) && std::abs(axis.x) > std::abs(axis.z))
+    return {p.z, p.y, -p.x};
+  if (std::abs(axis.y) > std::abs(axis.z)) return {p.x, -p.z, p.y};
+  return p;
+}
+
+V3d warped(const PatternStep& warp, const V3d& p) {
+  constexpr V3d z(0.0, 0.0, 1.0);
+  switch (warp.warp) {
+    case K::repeat_:
+      return repeated(warp, p);
+    case K::black_hole_:
+      return black_hole(warp, p);
+    case K::planar_:
+      return facing(warp.vectors.empty() ? z : warp.vectors[0], pressed_flat(warp, p));
+    default:
+      return facing(option(warp, K::orientation_, z), laid_round(warp, p));
+  }
+}
 
 // Points move against what moved the pattern, the last step first.
 PatternPoint pattern_point(const Pattern& pattern, PatternPoint p, bool with_turbulence) {
@@ -34,26 +132,35 @@ PatternPoint pattern_point(const Pattern& pattern, PatternPoint p, bool with_tur
     } else if (step->warp == K::turbulence_) {
       const Turbulence turbulence{step->lambda, step->omega, static_cast<int>(step->octaves)};
       p.at += turbulence.at(p.at) * step->turbulence;
-    } else if (step->warp == K::repeat_ && !step->vectors.empty()) {
-      for (int i = 0; i < 3; ++i) {
-        const double length = std::abs(step->vectors[0][i]);
-        if (length > 0.0) p.at[i] -= std::floor(p.at[i] / length) * length;
-      }
+    } else {
+      p.at = warped(*step, p.at);
     }
   }
   return p;
 }
 
-// Other warps say more than their first vector, or are of other kinds.
-bool follows_warps(const Pattern& pattern) {
-  return std::all_of(pattern.steps.begin(), pattern.steps.end(), [](const PatternStep& step) {
-    return step.kind != PatternStep::Kind::warp || step.warp == K::turbulence_ ||
-           (step.warp == K::repeat_ && step.vectors.size() == 1);
-  });
+// Cubes are not laid round, and black holes not disturbed.
+bool follows(const PatternStep& warp) {
+  switch (warp.warp) {
+    case K::repeat_:
+      return warp.vectors.size() == 1;
+    case K::black_hole_:
+      return warp.vectors.size() == 2 && warp.turbulence == V3d(0.0);
+    case K::turbulence_:
+    case K::planar_:
+    case K::cylindrical_:
+    case K::spherical_:
+    case K::toroidal_:
+      return true;
+    default:
+      return false;
+  }
 }
 
-double fraction(double x) {
-  return x - std::floor(x);
+bool follows_warps(const Pattern& pattern) {
+  return std::all_of(pattern.steps.begin(), pattern.steps.end(), [](const PatternStep& step) {
+    return step.kind != PatternStep::Kind::warp || follows(step);
+  });
 }
 
 double triangle_wave(double x) {
@@ -183,6 +290,25 @@ double wrinkles(const V3d& p) {
   return sum / total;
 }
 
+// How soon points leave the disc of radius 2 under z -> z² + c, as a share of the most rounds; 1:
+// they do not.
+std::optional<double> escape(const Pattern& pattern, const V3d& p) {
+  const bool mandel = pattern.kind == K::mandel_;
+  const std::vector<double>& n = pattern.numbers;
+  if (n.size() != (mandel ? 1u : 3u) || pattern.frequency != 1.0) return std::nullopt;
+  for (const auto& [key, value] : pattern.parameters) {
+    if (key == K::exponent_ || key == K::interior_ || key == K::exterior_) return std::nullopt;
+  }
+  const auto rounds = static_cast<int>(std::clamp(n.back(), 1.0, 1e4));
+  Imath::V2d z(p.x, p.y);
+  const Imath::V2d c = mandel ? z : Imath::V2d(n[0], n[1]);
+  for (int i = 0; i < rounds; ++i) {
+    z = Imath::V2d(z.x * z.x - z.y * z.y + c.x, 2.0 * z.x * z.y + c.y);
+    if (z.x * z.x + z.y * z.y > 4.0) return double(i) / rounds;
+  }
+  return 1.0;
+}
+
 double turbulence_strength(const Pattern& pattern) {
   for (const PatternStep& step : pattern.steps) {
     if (step.kind == PatternStep::Kind::turbulence) return step.turbulence.x;
@@ -227,6 +353,9 @@ std::optional<double> raw_value(const Pattern& pattern, const PatternPoint& poin
       const double turns = 0.25 + std::atan2(p.y, p.x) / (2.0 * pi);
       return triangle_wave(pattern.numbers[0] * turns + std::hypot(p.x, p.y));
     }
+    case K::mandel_:
+    case K::julia_:
+      return escape(pattern, p);
     case K::planar_:
       return 1.0 - std::min(std::abs(p.y), 1.0);
     case K::cylindrical_:

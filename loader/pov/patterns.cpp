@@ -90,11 +90,11 @@ bool parse_warp_item(Parser& parser, PatternStep& step) {
   static constexpr K flags[] = {K::flip_,         K::offset_,     K::strength_,    K::falloff_,
                                 K::radius_,       K::inverse_,    K::orientation_, K::dist_exp_,
                                 K::major_radius_, K::turbulence_, K::octaves_,     K::omega_,
-                                K::lambda_};
+                                K::lambda_,       K::repeat_};
   for (const K flag : flags) {
     if (!parser.accept(flag)) continue;
     if (flag == K::inverse_) {
-      step.numbers.push_back(1.0);
+      step.options.emplace_back(flag, V3d(1.0));
     } else if (flag == K::turbulence_) {
       step.turbulence = parse_vector(parser);
     } else if (flag == K::octaves_) {
@@ -104,7 +104,7 @@ bool parse_warp_item(Parser& parser, PatternStep& step) {
     } else if (flag == K::lambda_) {
       step.lambda = parse_float(parser, "lambda");
     } else {
-      step.vectors.push_back(parse_vector(parser));
+      step.options.emplace_back(flag, parse_vector(parser));
     }
     return true;
   }

@@ -59,6 +59,8 @@ constexpr float first_noisiness_at_edges = 16.0f;
 constexpr float first_samples_at_edges = 4.0f;
 // Samples that miss a light tell nothing of those that would meet it.
 constexpr float least_noisiness_by_light = 64.0f;
+// A light is so many times as bright as what it is seen against.
+constexpr float least_glare = 8.0f;
 // Of a pixel, in a frame of a view at rest.
 constexpr float most_samples_at_once = 8.0f;
 // Rows whose errors are diffused by themselves, so that several threads choose.
@@ -308,12 +310,18 @@ bool ShadingCache::is_edge(const VisibleSurfaces& seen, int x, int y) const {
 // pixel's middle shows: so bright that slivers tell.
 bool ShadingCache::is_beside_light(const VisibleSurfaces& seen, int x, int y) const {
   constexpr int reach = 2;
-  const std::int32_t object = seen.object[at(x, y)];
+  const std::size_t middle = at(x, y);
+  if (!(shades_.shade[middle].samples() > 0.0f)) return false;
+  float own = 0.0f;
+  for (std::size_t k = 0; k < Shade::samples_lane; ++k) own += shades_.shade[middle].lanes[k];
   for (int v = std::max(0, y - reach); v <= std::min(height_ - 1, y + reach); ++v) {
     for (int u = std::max(0, x - reach); u <= std::min(width_ - 1, x + reach); ++u) {
       const std::size_t i = at(u, v);
       const float* emitted = shades_.shade[i].lanes.data() + 3 * emitted_term;
-      if (seen.object[i] != object && emitted[0] + emitted[1] + emitted[2] > 0.0f) return true;
+      if (seen.object[i] != seen.object[middle] &&
+          emitted[0] + emitted[1] + emitted[2] > least_glare * own) {
+        return true;
+      }
     }
   }
   return false;
