@@ -13,6 +13,8 @@ namespace {
 using lumivec::Color;
 using lumivec::Framebuffer;
 using lumivec::Scene;
+using lumivec::V3d;
+using lumivec::pov::K;
 
 constexpr int pixels = 32;  // along both edges of what is seen: 8 units, so that 4 are a unit
 
@@ -304,12 +306,75 @@ TEST(PovPattern, CubicWavesRiseOnceInEachPeriod) {
 }
 
 TEST(PovPattern, PatternsThatAreNotFollowedAreMentioned) {
-  PovFile file(around + "plane { -z, 0 pigment { mandel 10 } }");
+  PovFile file(around + "plane { -z, 0 pigment { mandel 10 exponent 3 } }");
   file.load();
   EXPECT_TRUE(file.warns("a pattern that is not followed became its average color"));
   PovFile followed(around + "plane { -z, 0 pigment { granite } }");
   followed.load();
   EXPECT_FALSE(followed.warns("average color"));
+}
+
+// Gradients along x, y and z at a point of a warped pattern.
+V3d warped(const lumivec::pov::PatternStep& warp, const V3d& point) {
+  V3d found;
+  for (int axis = 0; axis < 3; ++axis) {
+    lumivec::pov::Pattern pattern;
+    pattern.kind = K::gradient_;
+    pattern.vector[axis] = 1.0;
+    pattern.steps = {warp};
+    found[axis] = lumivec::pov::pattern_value(pattern, point).value_or(-1.0);
+  }
+  return found;
+}
+
+// The wanted values are those of POV-Ray 3.7's pictures.
+TEST(PovPattern, WarpsLayPatternsAsPovRayDoes) {
+  struct Case {
+    K kind;
+    std::vector<V3d> vectors;
+    std::vector<std::pair<K, V3d>> options;
+    V3d point, wanted;
+  };
+  const V3d x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), one(1.0);
+  const V3d a(-0.721375, 0.438875, 0.5), b(1.153625, -0.498625, 0.5), c(0.216125, 0.001375, 0.2);
+  const std::vector<Case> cases = {
+      {K::cylindrical_, {}, {}, a, {0.4035, 0.4389, 0.8777}},
+      {K::cylindrical_, {}, {{K::dist_exp_, one}}, b, {0.0818, 0.5014, 0.2573}},
+      {K::cylindrical_, {}, {{K::orientation_, y}}, b, {0.0651, 0.7427, 0.5014}},
+      {K::cylindrical_, {}, {{K::orientation_, x}}, a, {0.8777, 0.4389, 0.5965}},
+      {K::spherical_, {}, {}, b, {0.0651, 0.3798, 0.3526}},
+      {K::spherical_, {}, {{K::dist_exp_, one}}, a, {0.3960, 0.6355, 0.9813}},
+      {K::toroidal_, {}, {{K::major_radius_, one * 0.7}}, a, {0.4035, 0.6888, 0.4735}},
+      {K::toroidal_,
+       {},
+       {{K::major_radius_, one * 0.7}, {K::dist_exp_, one}},
+       b,
+       {0.0487, 0.2870, 0.7478}},
+      {K::planar_, {y, one * 0.3}, {}, b, {0.1536, 0.7000, 0.5014}},
+      {K::repeat_, {x * 0.7}, {{K::offset_, y * 0.1}}, b, {0.4536, 0.6014, 0.5}},
+      {K::repeat_, {x * 0.7}, {{K::flip_, x}}, b, {0.2464, 0.5014, 0.5}},
+      {K::repeat_,
+       {x * 0.7},
+       {{K::offset_, x * 0.05 + y * 0.1}, {K::flip_, x + y}},
+       b,
+       {0.2964, 0.5986, 0.5}},
+      {K::black_hole_, {V3d(0.0), one * 2.0}, {}, c, {0.3733, 0.0024, 0.3455}},
+      {K::black_hole_,
+       {V3d(0.0), one * 2.0},
+       {{K::strength_, one * 2.0}},
+       c,
+       {0.4323, 0.0027, 0.4}},
+      {K::black_hole_, {V3d(0.0), one * 2.0}, {{K::inverse_, one}}, c, {0.0590, 0.0004, 0.0546}},
+  };
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    lumivec::pov::PatternStep warp;
+    warp.kind = lumivec::pov::PatternStep::Kind::warp;
+    warp.warp = cases[i].kind;
+    warp.vectors = cases[i].vectors;
+    warp.options = cases[i].options;
+    const V3d found = warped(warp, cases[i].point);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], cases[i].wanted[k], 0.001) << i << ' ' << k;
+  }
 }
 
 }  // namespace
