@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "loader/pov/finiteness.h"
 #include "loader/pov/functions.h"
 #include "loader/pov/image_maps.h"
 #include "loader/pov/noise.h"
@@ -136,6 +137,7 @@ PatternPoint pattern_point(const Pattern& pattern, PatternPoint p, bool with_tur
       p.at = warped(*step, p.at);
     }
   }
+  if (!fits_float(p.at)) p.at = V3d(0.0);  // where warps reach no end
   return p;
 }
 

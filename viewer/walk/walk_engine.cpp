@@ -20,7 +20,7 @@ constexpr double share_of_records = 0.33;
 constexpr double share_of_records_at_rest = 0.55;
 // Likewise what there is has this share to become better in, as long as the eye moves.
 constexpr double share_of_refining = 0.1;
-// And photons this one, as long as there are too few, and at rest.
+// And photons this one, as long as there are too few.
 constexpr double share_of_photons = 0.06;
 // At rest photons are traced as often as a still does, and their noise takes samples of its own.
 constexpr double share_of_photons_at_rest = 0.25;
@@ -175,10 +175,10 @@ WalkEngine::Frame WalkEngine::advance(const Camera& camera, double frame_time, s
   moved_ = moved;
   changed_ = false;
   frame.seconds_view = seconds_since(start);
-  if (resting_ >= frames_to_rest) frame_time *= longer_at_rest;
+  const bool rests = resting_ >= frames_to_rest;
+  if (rests) frame_time *= longer_at_rest;
   if (frame_ == 0) frame_time = std::max(frame_time, first_frame_seconds);
   if (mode_.reuse != Reuse::nothing) {
-    const bool rests = resting_ >= frames_to_rest;
     gather_photons((rests ? share_of_photons_at_rest : share_of_photons) * frame_time);
     const double left = frame_time - seconds_since(start) - fixed_seconds_;
     const double least =
